@@ -1,0 +1,2 @@
+//! The rilievo program.
+fn main() {}

@@ -1,0 +1,152 @@
+//! Unit normals that know their space, and the integers they are stored as.
+
+mod dither;
+mod encode;
+
+use std::marker::PhantomData;
+
+use glam::Vec3;
+
+pub use dither::{DitherU8, encode_map_u8};
+pub use encode::{decode_u8, decode_u16, encode_u8, encode_u16};
+
+use crate::grid::Grid;
+
+/// A coordinate space that normals and directions can live in.
+pub trait Space: sealed::Sealed + Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
+    /// The space's name in files and on the command line.
+    const NAME: &'static str;
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+macro_rules! space {
+    ($(#[$doc:meta])* $name:ident, $text:literal) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub struct $name;
+        impl sealed::Sealed for $name {}
+        impl Space for $name {
+            const NAME: &'static str = $text;
+        }
+    };
+}
+
+space!(
+    /// The frame of the surface itself: +X along u, +Y up the picture, +Z out.
+    Tangent, "tangent"
+);
+space!(
+    /// The space the mesh is modelled in.
+    Object, "object"
+);
+space!(
+    /// The space lights and camera are placed in.
+    World, "world"
+);
+
+/// A unit vector in space `S`: a surface normal, or a direction to a light or an eye.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Normal<S>(Vec3, PhantomData<S>);
+
+impl<S: Space> Normal<S> {
+    /// +X.
+    pub const X: Self = Self(Vec3::X, PhantomData);
+    /// +Y.
+    pub const Y: Self = Self(Vec3::Y, PhantomData);
+    /// +Z: in tangent space, the undisturbed surface.
+    pub const Z: Self = Self(Vec3::Z, PhantomData);
+
+    /// The direction of `v`; `None` if it has none (zero, NaN or infinite).
+    ///
+    /// Scaled by the largest component first, so that the tiniest and the largest vectors keep their direction.
+    pub fn new(v: Vec3) -> Option<Self> {
+        let largest = v.abs().max_element();
+        if !(largest > 0.0 && v.is_finite()) {
+            return None;
+        }
+        let scaled = v / largest;
+        // Division, not multiplication by a reciprocal: one rounding less, and the same bits everywhere.
+        Some(Self(scaled / scaled.length(), PhantomData))
+    }
+
+    /// The direction of `v`, or `fallback` if it has none.
+    pub fn new_or(v: Vec3, fallback: Self) -> Self {
+        Self::new(v).unwrap_or(fallback)
+    }
+
+    /// The vector, of unit length within a few ulps.
+    pub fn vec(self) -> Vec3 {
+        self.0
+    }
+
+    /// Angle to another direction in the same space, in radians, accurate for small angles too.
+    ///
+    /// 2·asin(chord / 2) in f64: acos of a dot product loses everything below 0.02°.
+    pub fn angle_to(self, other: Self) -> f64 {
+        let chord = (self.0.as_dvec3() - other.0.as_dvec3()).length();
+        2.0 * (chord * 0.5).min(1.0).asin()
+    }
+
+    /// The same numbers, declared to be in another space.
+    pub fn relabel<T: Space>(self) -> Normal<T> {
+        Normal(self.0, PhantomData)
+    }
+}
+
+/// One unit normal per texel.
+pub type NormalMap<S> = Grid<Normal<S>>;
+
+/// Which way the green channel of a tangent-space normal map points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Convention {
+    /// +Y up the picture, as OpenGL, glTF, Blender and Godot have it.
+    #[default]
+    Gl,
+    /// +Y down the picture, as DirectX and Unreal have it.
+    Dx,
+}
+
+impl Convention {
+    /// Converts between this convention and the library's own (+Y up); its own inverse.
+    pub fn apply<S: Space>(self, n: Normal<S>) -> Normal<S> {
+        match self {
+            Self::Gl => n,
+            Self::Dx => Normal(Vec3::new(n.0.x, -n.0.y, n.0.z), PhantomData),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn new_keeps_extreme_directions_and_refuses_none() {
+        for scale in [1e-38f32, 1e-20, 1.0, 1e20, 1e38] {
+            let n = Normal::<Object>::new(Vec3::new(scale, scale, 0.0)).unwrap();
+            assert!((n.vec() - Vec3::new(0.5f32.sqrt(), 0.5f32.sqrt(), 0.0)).length() < 1e-6, "{scale}");
+        }
+        for v in [Vec3::ZERO, Vec3::NAN, Vec3::new(f32::INFINITY, 0.0, 0.0)] {
+            assert_eq!(Normal::<Object>::new(v), None);
+        }
+    }
+
+    #[test]
+    fn angle_is_accurate_for_small_angles() {
+        let a = Normal::<Tangent>::Z;
+        let b = Normal::new(Vec3::new(1e-4, 0.0, 1.0)).unwrap();
+        assert!((a.angle_to(b) - 1e-4).abs() < 1e-9);
+        assert!((a.angle_to(Normal::new(-Vec3::Z).unwrap()) - std::f64::consts::PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn dx_is_its_own_inverse() {
+        let n = Normal::<Tangent>::new(Vec3::new(0.3, 0.4, 0.5)).unwrap();
+        assert_eq!(Convention::Dx.apply(n).vec().y, -n.vec().y);
+        assert_eq!(Convention::Dx.apply(Convention::Dx.apply(n)), n);
+    }
+}

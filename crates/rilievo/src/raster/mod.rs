@@ -1,0 +1,1 @@
+//! The reference renderer (owned by the lead).

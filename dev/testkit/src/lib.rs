@@ -1,0 +1,1 @@
+//! Oracles, generators and comparison shared by the tests of every crate.
