@@ -38,12 +38,12 @@ impl Pose {
 
     /// A direction taken to the world.
     pub fn to_world(&self, d: Normal<Object>) -> Normal<World> {
-        Normal::new_or((self.rotation * d.vec()).into(), d.relabel())
+        Normal::new_or(self.rotation * d.vec(), d.relabel())
     }
 
     /// A direction of the world taken to the object (the inverse of the modelling transform: Tarini 2000, § 5).
     pub fn to_object(&self, d: Normal<World>) -> Normal<Object> {
-        Normal::new_or((self.rotation.inverse() * d.vec()).into(), d.relabel())
+        Normal::new_or(self.rotation.inverse() * d.vec(), d.relabel())
     }
 }
 

@@ -1,1 +1,8 @@
-//! Oracles, generators and comparison shared by the tests of every crate.
+//! Oracles, generators and comparison shared by the tests of every crate. Not published.
+#![forbid(unsafe_code)]
+
+mod data;
+mod random;
+
+pub use data::{shared_data, shared_file};
+pub use random::{Random, uniform_sphere};

@@ -28,7 +28,8 @@ impl Camera {
         if !(view.is_finite() && view.length_squared() > 0.0) {
             return Err(Error::parameter("camera eye", eye, "a finite point away from the target"));
         }
-        if !(view.normalize().cross(up).length_squared() > 1e-12) {
+        let sideways = view.normalize().cross(up).length_squared();
+        if !sideways.is_finite() || sideways <= 1e-12 {
             return Err(Error::parameter("camera up", up, "a direction that is not along the view"));
         }
         if !(fov_y_rad > 0.0 && fov_y_rad < std::f32::consts::PI) {
