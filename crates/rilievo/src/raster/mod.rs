@@ -1,1 +1,47 @@
-//! The reference renderer (owned by the lead).
+//! The reference renderer: perspective, clipping, depth test, watertight fill, perspective-correct texture look-ups.
+//!
+//! Plain scalar code, clear before fast: every faster path is held against it. A frame has two steps, as in the
+//! source: [`prepare`] lights the tables (per object, a few thousand evaluations), [`draw`] fills pixels.
+//!
+//! ```
+//! use rilievo::{raster, surface, light, LinearRgb, Normal, Pose};
+//!
+//! let mesh = surface::shapes::sphere(32, 16)?;
+//! let materials = [light::Material::default()];
+//! let object = raster::Object {
+//!     mesh: &mesh,
+//!     pose: Pose::IDENTITY,
+//!     detail: raster::Detail::Smooth,
+//!     base_color: None,
+//!     materials: &materials,
+//!     model: light::LightingModel::BlinnPhong,
+//!     double_sided: false,
+//! };
+//! let camera = surface::Camera::orbit(mesh.bounding_sphere(), 0.0, 0.3, 1.1, 0.6, 1.0)?;
+//! let scene = raster::Scene {
+//!     objects: vec![object],
+//!     lighting: light::Lighting {
+//!         ambient: LinearRgb::gray(0.05),
+//!         lights: vec![light::DirectionalLight { direction: Normal::X, color: LinearRgb::WHITE }],
+//!     },
+//!     camera,
+//! };
+//! let frame = raster::prepare(&scene, raster::Method::Exact, raster::TextureFilter::Trilinear)?;
+//! let mut target = raster::Target::new(64, 64)?;
+//! raster::draw(&frame, &mut target);
+//! assert!(target.covered_pixels() > 1000);
+//! # Ok::<(), rilievo::Error>(())
+//! ```
+
+mod clip;
+mod draw;
+mod exact;
+mod scene;
+mod table;
+mod target;
+mod texture;
+
+pub use draw::draw;
+pub use scene::{Detail, Frame, Method, Object, Scene, prepare};
+pub use target::Target;
+pub use texture::TextureFilter;

@@ -1,0 +1,154 @@
+//! From triangles to pixels.
+
+use glam::{DVec2, DVec4, Vec2, Vec3, Vec4};
+
+use crate::color::LinearRgb;
+use crate::fill::Triangle;
+use crate::par;
+use crate::raster::clip::{Corner, clip};
+use crate::raster::scene::{Fragment, Frame, Object, Shading};
+use crate::raster::target::{Pixel, Target};
+use crate::raster::texture::{Footprint, Taps, TextureFilter};
+use crate::surface::Mesh;
+
+/// Rows one task draws. Bands are independent, so pictures do not depend on the number of threads.
+const BAND_ROWS: usize = 32;
+
+/// Draws a prepared frame into `target`, on top of what is there.
+///
+/// Triangles come in the order of the objects and their meshes; of two surfaces at exactly the same depth the first
+/// stays.
+pub fn draw(frame: &Frame<'_>, target: &mut Target) {
+    let (width, height) = target.size();
+    for (object, shading) in frame.scene.objects.iter().zip(&frame.shadings) {
+        let triangles = set_up(object, frame, (width, height));
+        let band_len = width as usize * BAND_ROWS;
+        par::for_each_row(target.pixels.texels_mut(), band_len, |band, pixels| {
+            let first_row = (band * BAND_ROWS) as u32;
+            let rows = first_row..first_row + (pixels.len() / width as usize) as u32;
+            for triangle in &triangles {
+                triangle.shape.for_each_pixel(0..width, rows.clone(), |x, y, lambda| {
+                    let pixel = &mut pixels[(y - first_row) as usize * width as usize + x as usize];
+                    let depth = triangle.depth(lambda);
+                    if depth < pixel.depth {
+                        let fragment = triangle.fragment(object.mesh, lambda);
+                        let color = color(object, shading, &fragment, frame.filter);
+                        *pixel = Pixel { color, depth };
+                    }
+                });
+            }
+        });
+    }
+}
+
+fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, filter: TextureFilter) -> LinearRgb {
+    let shade = match shading {
+        Shading::Table(table) => table.shade(fragment, filter),
+        Shading::Exact(exact) => exact.shade(fragment, filter),
+    };
+    let base = object.base_color.map_or(LinearRgb::WHITE, |chain| {
+        Taps::gather(chain, filter, &fragment.footprint)
+            .iter()
+            .fold(LinearRgb::BLACK, |sum, tap| sum + chain.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
+    });
+    shade.over(base)
+}
+
+/// A clipped, projected triangle.
+struct ScreenTriangle {
+    shape: Triangle,
+    corners: [Corner; 3],
+    /// Change of the screen barycentrics to the next pixel to the right and below.
+    lambda_dx: [f64; 3],
+    lambda_dy: [f64; 3],
+    /// Vertices of the triangle before clipping.
+    vertices: [u32; 3],
+}
+
+/// Transforms, clips and projects all triangles of an object; drops what is behind, outside, or turned away.
+fn set_up(object: &Object<'_>, frame: &Frame<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
+    let mesh = object.mesh;
+    let view_projection = frame.scene.camera.view_projection(width as f32 / height as f32);
+    let to_clip = |p: &Vec3| (view_projection * object.pose.point_to_world(*p).extend(1.0)).as_dvec4();
+    // Per vertex, not per corner: triangles that share a vertex must see it at the same bits.
+    let positions: Vec<DVec4> = mesh.positions().iter().map(to_clip).collect();
+    let to_screen = |p: DVec4| {
+        let x = (p.x / p.w * 0.5 + 0.5) * f64::from(width);
+        let y = (0.5 - p.y / p.w * 0.5) * f64::from(height);
+        DVec2::new(x, y)
+    };
+    let mut out = Vec::new();
+    for &vertices in mesh.triangles() {
+        let polygon = clip(vertices.map(|v| positions[v as usize]));
+        for i in 2..polygon.len() {
+            let corners = [polygon[0], polygon[i - 1], polygon[i]];
+            let screen = corners.map(|c| to_screen(c.position));
+            let Some(shape) = Triangle::new(screen) else { continue };
+            // Counter-clockwise in the world is counter-clockwise to the eye.
+            if shape.is_clockwise() && !object.double_sided {
+                continue;
+            }
+            let [lambda_dx, lambda_dy] = barycentric_gradients(screen);
+            out.push(ScreenTriangle { shape, corners, lambda_dx, lambda_dy, vertices });
+        }
+    }
+    out
+}
+
+/// How the barycentric coordinates change along x and along y.
+fn barycentric_gradients([a, b, c]: [DVec2; 3]) -> [[f64; 3]; 2] {
+    let area2 = (b - a).perp_dot(c - a);
+    let edges = [c - b, a - c, b - a];
+    [edges.map(|e| -e.y / area2), edges.map(|e| e.x / area2)]
+}
+
+impl ScreenTriangle {
+    /// Depth at screen barycentrics `lambda`: linear on the screen.
+    fn depth(&self, lambda: [f64; 3]) -> f32 {
+        self.corners.iter().zip(lambda).map(|(c, l)| c.position.z / c.position.w * l).sum::<f64>() as f32
+    }
+
+    /// Perspective-correct weights of the three vertices at screen barycentrics `lambda`.
+    fn weights(&self, lambda: [f64; 3]) -> [f64; 3] {
+        let mut weights = [0.0; 3];
+        let mut total = 0.0;
+        for (corner, l) in self.corners.iter().zip(lambda) {
+            let share = l / corner.position.w;
+            total += share;
+            for (w, c) in weights.iter_mut().zip(corner.weights) {
+                *w += share * c;
+            }
+        }
+        weights.map(|w| w / total)
+    }
+
+    fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
+        let weights = self.weights(lambda);
+        let mixed = |w: [f64; 3]| w.map(|w| w as f32);
+        let uv = |w: [f64; 3]| mix(mesh.uvs(), self.vertices, mixed(w), Vec2::ZERO);
+        let shifted = |d: [f64; 3]| self.weights([lambda[0] + d[0], lambda[1] + d[1], lambda[2] + d[2]]);
+        let here = uv(weights);
+        Fragment {
+            footprint: Footprint {
+                uv: here,
+                uv_dx: uv(shifted(self.lambda_dx)) - here,
+                uv_dy: uv(shifted(self.lambda_dy)) - here,
+            },
+            position: mix(mesh.positions(), self.vertices, mixed(weights), Vec3::ZERO),
+            normal: mix(mesh.normals(), self.vertices, mixed(weights), Vec3::ZERO),
+            tangent: mix(mesh.tangents(), self.vertices, mixed(weights), Vec4::ZERO),
+        }
+    }
+}
+
+/// Weighted sum of a vertex attribute; `absent` if the mesh does not have it.
+fn mix<T>(values: &[T], vertices: [u32; 3], weights: [f32; 3], absent: T) -> T
+where
+    T: Copy + std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
+{
+    if values.is_empty() {
+        return absent;
+    }
+    let [a, b, c] = vertices.map(|v| values[v as usize]);
+    a * weights[0] + b * weights[1] + c * weights[2]
+}

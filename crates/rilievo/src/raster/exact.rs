@@ -1,0 +1,113 @@
+//! Shading by the pixel: the reference.
+
+use glam::Vec3;
+
+use crate::light::{Lighting, LightingModel, Material, Shade, shade};
+use crate::mip::MipChain;
+use crate::normal::{Normal, Object as ObjectSpace, Space};
+use crate::raster::scene::{Detail, Fragment, Object};
+use crate::raster::texture::{Taps, TextureFilter};
+use crate::surface::Frame;
+
+/// Filters the normals, normalises, and evaluates the lighting model with the pixel's own view direction.
+pub(super) struct Exact<'a> {
+    detail: Detail<'a>,
+    materials: &'a [Material],
+    model: LightingModel,
+    lighting: Lighting<ObjectSpace>,
+    eye: Vec3,
+}
+
+impl<'a> Exact<'a> {
+    /// For an eye at `eye` in object space.
+    pub(super) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
+        Self { detail: object.detail, materials: object.materials, model: object.model, lighting, eye }
+    }
+
+    pub(super) fn shade(&self, fragment: &Fragment, filter: TextureFilter) -> Shade {
+        let smooth = Normal::new_or(fragment.normal, Normal::Z);
+        let view = Normal::new_or(self.eye - fragment.position, smooth);
+        let frame = Frame::from_mikk(fragment.normal, fragment.tangent);
+        let mut total = Shade::default();
+        for part in self.gather(fragment, filter).iter() {
+            let normal = match self.detail {
+                Detail::Smooth => smooth,
+                Detail::Tangent { .. } => frame.to_object(Normal::new_or(part.sum, Normal::Z)),
+                Detail::Object { .. } | Detail::Indexed(_) => Normal::new_or(part.sum, smooth),
+            };
+            let material = &self.materials[usize::from(part.material)];
+            total = total.add_weighted(shade(self.model, material, &self.lighting, normal, view), part.weight);
+        }
+        total
+    }
+
+    /// The map's normals under the pixel, summed per material.
+    fn gather(&self, fragment: &Fragment, filter: TextureFilter) -> Parts {
+        let mut parts = Parts::default();
+        match self.detail {
+            Detail::Smooth => parts.add(0, Vec3::ZERO, 1.0),
+            Detail::Tangent { normals, materials } => gather_map(&mut parts, normals, materials, fragment, filter),
+            Detail::Object { normals, materials } => gather_map(&mut parts, normals, materials, fragment, filter),
+            Detail::Indexed(map) => {
+                let levels = map.indices();
+                for tap in Taps::gather(levels, filter, &fragment.footprint).iter() {
+                    let index = levels.levels()[tap.level][(tap.x, tap.y)];
+                    let normal = map.table().normals()[usize::from(index)];
+                    parts.add(map.table().material_of(index), normal.vec(), tap.weight);
+                }
+            }
+        }
+        parts
+    }
+}
+
+fn gather_map<S: Space>(
+    parts: &mut Parts,
+    normals: &MipChain<Normal<S>>,
+    materials: Option<&MipChain<u8>>,
+    fragment: &Fragment,
+    filter: TextureFilter,
+) {
+    for tap in Taps::gather(normals, filter, &fragment.footprint).iter() {
+        let at = (tap.x, tap.y);
+        let material = materials.map_or(0, |m| m.levels()[tap.level][at]);
+        parts.add(material, normals.levels()[tap.level][at].vec(), tap.weight);
+    }
+}
+
+/// The texels of one material under a pixel.
+#[derive(Debug, Clone, Copy, Default)]
+struct Part {
+    material: u8,
+    /// Weighted sum of the normals.
+    sum: Vec3,
+    weight: f32,
+}
+
+/// At most one part per tap.
+#[derive(Default)]
+struct Parts {
+    parts: [Part; 8],
+    len: usize,
+}
+
+impl Parts {
+    fn add(&mut self, material: u8, normal: Vec3, weight: f32) {
+        let known = self.parts[..self.len].iter_mut().find(|p| p.material == material);
+        let part = match known {
+            Some(part) => part,
+            None => {
+                self.len += 1;
+                let part = &mut self.parts[self.len - 1];
+                part.material = material;
+                part
+            }
+        };
+        part.sum += normal * weight;
+        part.weight += weight;
+    }
+
+    fn iter(&self) -> std::slice::Iter<'_, Part> {
+        self.parts[..self.len].iter()
+    }
+}
