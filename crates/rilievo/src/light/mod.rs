@@ -5,8 +5,10 @@
 
 mod material;
 mod model;
+mod relight;
 mod shade_table;
 
 pub use material::Material;
 pub use model::{DirectionalLight, Lighting, LightingModel, Shade, shade};
+pub use relight::relight;
 pub use shade_table::ShadeTable;

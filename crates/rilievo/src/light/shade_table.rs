@@ -1,5 +1,6 @@
 //! The shade table: the one thing that is lit each frame.
 
+use crate::color::{LinearRgb, Rgba8};
 use crate::error::{Error, Result};
 use crate::indexed::NormalTable;
 use crate::light::{Lighting, LightingModel, Material, Shade, shade};
@@ -43,6 +44,11 @@ impl ShadeTable {
         Ok(Self { entries })
     }
 
+    /// The colours of a white surface, encoded: what a palette holds.
+    pub fn to_srgb(&self) -> Vec<Rgba8> {
+        self.entries.iter().map(|s| s.over(LinearRgb::WHITE).to_srgb()).collect()
+    }
+
     /// The shades, in table order.
     pub fn entries(&self) -> &[Shade] {
         &self.entries
@@ -52,7 +58,6 @@ impl ShadeTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::LinearRgb;
     use crate::indexed::MaterialSpan;
     use crate::light::DirectionalLight;
     use crate::normal::Object;

@@ -78,6 +78,14 @@ impl<S: Space> Normal<S> {
         Self::new(v).unwrap_or(fallback)
     }
 
+    /// The mean direction of a block, for mip levels; the first where they cancel out.
+    ///
+    /// # Panics
+    /// If the block is empty.
+    pub fn mean(block: &[&Self]) -> Self {
+        Self::new_or(block.iter().map(|n| n.0).sum(), *block[0])
+    }
+
     /// The vector, of unit length within a few ulps.
     pub fn vec(self) -> Vec3 {
         self.0

@@ -46,10 +46,10 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, filter
         Shading::Table(table) => table.shade(fragment, filter),
         Shading::Exact(exact) => exact.shade(fragment, filter),
     };
-    let base = object.base_color.map_or(LinearRgb::WHITE, |chain| {
-        Taps::gather(chain, filter, &fragment.footprint)
+    let base = object.base_color.map_or(LinearRgb::WHITE, |base| {
+        Taps::gather(base.levels, filter, &fragment.footprint.repeated(base.repeat))
             .iter()
-            .fold(LinearRgb::BLACK, |sum, tap| sum + chain.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
+            .fold(LinearRgb::BLACK, |sum, tap| sum + base.levels.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
     });
     shade.over(base)
 }

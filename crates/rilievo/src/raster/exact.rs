@@ -6,7 +6,7 @@ use crate::light::{Lighting, LightingModel, Material, Shade, shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Space};
 use crate::raster::scene::{Detail, Fragment, Object};
-use crate::raster::texture::{Taps, TextureFilter};
+use crate::raster::texture::{Footprint, Taps, TextureFilter};
 use crate::surface::Frame;
 
 /// Filters the normals, normalises, and evaluates the lighting model with the pixel's own view direction.
@@ -46,8 +46,13 @@ impl<'a> Exact<'a> {
         let mut parts = Parts::default();
         match self.detail {
             Detail::Smooth => parts.add(0, Vec3::ZERO, 1.0),
-            Detail::Tangent { normals, materials } => gather_map(&mut parts, normals, materials, fragment, filter),
-            Detail::Object { normals, materials } => gather_map(&mut parts, normals, materials, fragment, filter),
+            Detail::Tangent { normals, repeat, materials } => {
+                let footprint = fragment.footprint.repeated(repeat);
+                gather_map(&mut parts, normals, materials, &footprint, filter);
+            }
+            Detail::Object { normals, materials } => {
+                gather_map(&mut parts, normals, materials, &fragment.footprint, filter);
+            }
             Detail::Indexed(map) => {
                 let levels = map.indices();
                 for tap in Taps::gather(levels, filter, &fragment.footprint).iter() {
@@ -65,10 +70,10 @@ fn gather_map<S: Space>(
     parts: &mut Parts,
     normals: &MipChain<Normal<S>>,
     materials: Option<&MipChain<u8>>,
-    fragment: &Fragment,
+    footprint: &Footprint,
     filter: TextureFilter,
 ) {
-    for tap in Taps::gather(normals, filter, &fragment.footprint).iter() {
+    for tap in Taps::gather(normals, filter, footprint).iter() {
         let at = (tap.x, tap.y);
         let material = materials.map_or(0, |m| m.levels()[tap.level][at]);
         parts.add(material, normals.levels()[tap.level][at].vec(), tap.weight);

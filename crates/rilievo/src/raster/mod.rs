@@ -42,6 +42,6 @@ mod target;
 mod texture;
 
 pub use draw::draw;
-pub use scene::{Detail, Frame, Method, Object, Scene, prepare};
+pub use scene::{BaseColor, Detail, Frame, Method, Object, Scene, prepare};
 pub use target::Target;
 pub use texture::TextureFilter;

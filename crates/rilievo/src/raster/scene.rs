@@ -1,7 +1,10 @@
 //! What is drawn, and the per-frame work before a pixel is touched.
 
+use glam::{Vec2, Vec3, Vec4};
+
 use crate::color::LinearRgb;
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::indexed::QuantizedMap;
 use crate::light::{Lighting, LightingModel, Material};
 use crate::mip::MipChain;
@@ -21,6 +24,8 @@ pub enum Detail<'a> {
     Tangent {
         /// The normals, with their mip levels.
         normals: &'a MipChain<Normal<Tangent>>,
+        /// How often the map repeats over the mesh's texture square, along u and v.
+        repeat: Vec2,
         /// A material per texel, of the same levels; material 0 without it.
         materials: Option<&'a MipChain<u8>>,
     },
@@ -35,6 +40,15 @@ pub enum Detail<'a> {
     Indexed(&'a QuantizedMap<ObjectSpace>),
 }
 
+/// A base colour texture.
+#[derive(Debug, Clone, Copy)]
+pub struct BaseColor<'a> {
+    /// Linear light, with mip levels.
+    pub levels: &'a MipChain<LinearRgb>,
+    /// How often it repeats over the mesh's texture square, along u and v.
+    pub repeat: Vec2,
+}
+
 /// A mesh with everything that decides its look.
 #[derive(Debug, Clone)]
 pub struct Object<'a> {
@@ -44,8 +58,8 @@ pub struct Object<'a> {
     pub pose: Pose,
     /// Its fine normals.
     pub detail: Detail<'a>,
-    /// Its base colour in linear light; white without it.
-    pub base_color: Option<&'a MipChain<LinearRgb>>,
+    /// Its base colour; white without it.
+    pub base_color: Option<BaseColor<'a>>,
     /// Material `m` of the map is `materials[m]`.
     pub materials: &'a [Material],
     /// How it answers light.
@@ -80,9 +94,9 @@ pub enum Method {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fragment {
     pub(super) footprint: Footprint,
-    pub(super) position: glam::Vec3,
-    pub(super) normal: glam::Vec3,
-    pub(super) tangent: glam::Vec4,
+    pub(super) position: Vec3,
+    pub(super) normal: Vec3,
+    pub(super) tangent: Vec4,
 }
 
 /// The shading of one object for one frame.
@@ -129,7 +143,7 @@ fn check(object: &Object<'_>) -> Result<()> {
     }
     let highest = match object.detail {
         Detail::Smooth => 0,
-        Detail::Tangent { normals, materials } => highest_material(normals, materials)?,
+        Detail::Tangent { normals, materials, .. } => highest_material(normals, materials)?,
         Detail::Object { normals, materials } => highest_material(normals, materials)?,
         Detail::Indexed(map) => map.table().spans().last().map_or(0, |s| s.material),
     };
@@ -148,5 +162,5 @@ fn highest_material<T>(normals: &MipChain<T>, materials: Option<&MipChain<u8>>) 
         let (expected, actual) = (normals.levels().len(), materials.levels().len());
         return Err(Error::Length { what: "mip levels of the material map", expected, actual });
     }
-    Ok(materials.levels().iter().flat_map(|l| l.texels()).copied().max().unwrap_or(0))
+    Ok(materials.levels().iter().flat_map(Grid::texels).copied().max().unwrap_or(0))
 }

@@ -25,6 +25,13 @@ pub(super) struct Footprint {
     pub(super) uv_dy: Vec2,
 }
 
+impl Footprint {
+    /// The footprint in a map that repeats.
+    pub(super) fn repeated(self, repeat: Vec2) -> Self {
+        Self { uv: self.uv * repeat, uv_dx: self.uv_dx * repeat, uv_dy: self.uv_dy * repeat }
+    }
+}
+
 /// One texel and its share; the shares of a pixel sum to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Tap {
