@@ -143,6 +143,12 @@ impl<S: Space> QuantizedMap<S> {
         self.base().map(|&i| self.table.normals[usize::from(i)])
     }
 
+    /// The same map in another space, each entry taken there by `to`; for frames that are constant over the map.
+    pub fn map_normals<T: Space>(self, to: impl Fn(Normal<S>) -> Normal<T>) -> QuantizedMap<T> {
+        let normals = self.table.normals.into_iter().map(to).collect();
+        QuantizedMap { table: NormalTable { normals, spans: self.table.spans }, indices: self.indices }
+    }
+
     /// The material of every texel.
     pub fn expand_materials(&self) -> MaterialMap {
         self.base().map(|&i| self.table.material_of(i))

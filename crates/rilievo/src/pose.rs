@@ -26,6 +26,12 @@ impl Pose {
         Self { rotation: Quat::from_rotation_y(angle_rad), ..Self::IDENTITY }
     }
 
+    /// A turn about the vertical axis through `center`.
+    pub fn turned_about(center: Vec3, angle_rad: f32) -> Self {
+        let turned = Self::turned(angle_rad);
+        Self { translation: center - turned.rotation * center, ..turned }
+    }
+
     /// A point taken to the world.
     pub fn point_to_world(&self, p: Vec3) -> Vec3 {
         self.rotation * (p * self.scale) + self.translation
@@ -64,6 +70,12 @@ mod tests {
         assert!((pose.point_to_object(pose.point_to_world(p)) - p).length() < 1e-6);
         let d = Normal::new(p).unwrap();
         assert!(pose.to_object(pose.to_world(d)).angle_to(d) < 1e-6);
+    }
+
+    #[test]
+    fn turning_about_a_centre_keeps_it() {
+        let centre = Vec3::new(3.0, 1.0, -2.0);
+        assert!((Pose::turned_about(centre, 1.3).point_to_world(centre) - centre).length() < 1e-6);
     }
 
     #[test]
