@@ -7,6 +7,6 @@ mod mesh;
 pub mod shapes;
 
 pub use camera::Camera;
-pub use deflect::{Deflected, deflect_heights, deflect_normals};
+pub use deflect::{Deflect, Deflected, MAX_GUTTER, deflect_heights, deflect_normals};
 pub use frame::Frame;
 pub use mesh::{Mesh, MeshParts};
