@@ -144,6 +144,19 @@ impl Mesh {
         Some(Frame::from_mikk(*self.normals.get(vertex)?, *self.tangents.get(vertex)?))
     }
 
+    /// The frame all vertices share, as on a flat sheet with one orientation of its texture; `None` if they differ by
+    /// more than rounding, or before [`Self::with_tangents`].
+    ///
+    /// Only then can a tangent-space map be shaded by table.
+    pub fn constant_frame(&self) -> Option<Frame> {
+        /// Largest difference of a component that is still rounding.
+        const TOLERANCE: f32 = 1e-4;
+        let (&normal, &tangent) = (self.normals.first()?, self.tangents.first()?);
+        let same_normal = self.normals.iter().all(|n| n.abs_diff_eq(normal, TOLERANCE));
+        let same_tangent = self.tangents.iter().all(|t| t.abs_diff_eq(tangent, TOLERANCE));
+        (same_normal && same_tangent).then(|| Frame::from_mikk(normal, tangent))
+    }
+
     /// Centre of the bounding box and radius of the sphere about it, of all vertices that triangles use.
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
         let used = || self.triangles.iter().flatten().map(|&i| self.positions[i as usize]);
