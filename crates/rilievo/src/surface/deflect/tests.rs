@@ -129,7 +129,11 @@ fn bumps_on_a_sphere_point_the_right_way() {
     // The mean of |∂P/∂u| = 2π cos(latitude) over the area of the sphere.
     let map_width = PI * PI / 2.0;
     let depth = 0.004;
-    for (place, u0, v0) in [("front", 0.5, 0.5), ("side", 0.75, 0.4), ("seam", 0.0, 0.55), ("top", 0.4, 0.1)] {
+    // What remains is the central difference of the map and the height that Blinn leaves out, under 1 % of the tilt
+    // together; at the pole, whose triangles cannot follow the circles of latitude, 5 %.
+    for (place, u0, v0, tolerance) in
+        [("front", 0.5, 0.5, 0.012), ("side", 0.75, 0.4, 0.012), ("seam", 0.0, 0.55, 0.012), ("top", 0.4, 0.1, 0.06)]
+    {
         // A bell as round on the sphere as it gets: wider in u where the circles of latitude are smaller.
         let (spread_v, spread_u) = (0.03, 0.015 / (v0 * PI).sin());
         let bell = |u: f64, v: f64| {
@@ -145,7 +149,7 @@ fn bumps_on_a_sphere_point_the_right_way() {
         for y in 0..height {
             for x in 0..width {
                 let (u, v) = ((f64::from(x) + 0.5) / f64::from(width), (f64::from(y) + 0.5) / f64::from(height));
-                if bell(u, v) < 1e-3 {
+                if !result.covered[(x, y)] || bell(u, v) < 1e-3 {
                     continue;
                 }
                 let [expected, smooth] = [1.0, 0.0]
@@ -157,8 +161,7 @@ fn bumps_on_a_sphere_point_the_right_way() {
         }
         let (steepest, worst) = (steepest.to_degrees(), worst.to_degrees());
         eprintln!("{place}: {worst:.3}° off at most, where the bump tilts by up to {steepest:.2}°");
-        // What remains is the central difference of the map, and the height that Blinn leaves out (up to 2 % of the slope).
-        assert!(steepest > 5.0 && worst < 0.06 * steepest, "{place}: {worst}° off, bump tilts {steepest}°");
+        assert!(steepest > 5.0 && worst < tolerance * steepest, "{place}: {worst}° off, bump tilts {steepest}°");
     }
 }
 
