@@ -55,7 +55,7 @@ impl Triangle {
     /// Calls `visit(x, y, weights)` for every pixel centre the triangle owns inside `columns` × `rows`, row by row.
     ///
     /// The weights are the barycentric coordinates of the pixel centre for the corners as they were given; they are
-    /// exact quotients of integers, and sum to 1.
+    /// quotients of integers, each within an ulp or two, and sum to 1 within the same.
     pub fn for_each_pixel(&self, columns: Range<u32>, rows: Range<u32>, mut visit: impl FnMut(u32, u32, [f64; 3])) {
         let bounds = |axis: usize, range: &Range<u32>| {
             let low = self.vertices.iter().map(|v| v[axis]).min().expect("invariant: three corners");
@@ -70,16 +70,29 @@ impl Triangle {
         // Edge i lies opposite to corner i.
         let edges = [Edge::new(b, c), Edge::new(c, a), Edge::new(a, b)];
         let scale = 1.0 / self.area2 as f64;
+        if xs.is_empty() {
+            return;
+        }
         for y in ys {
+            // Edge values are linear, so along a row they are exact sums; a triangle is convex, so its pixels in a row
+            // are one run, and the row is done where the run ends.
+            let mut e = edges.each_ref().map(|edge| edge.at([xs.start * ONE + ONE / 2, y * ONE + ONE / 2]));
+            let mut entered = false;
             for x in xs.clone() {
-                let centre = [x * ONE + ONE / 2, y * ONE + ONE / 2];
-                let e = edges.each_ref().map(|edge| edge.at(centre));
-                if edges.iter().zip(e).all(|(edge, value)| value + edge.bias >= 0) {
+                // Not negative in any of the three: no sign bit in their union.
+                let owned = (e[0] + edges[0].bias) | (e[1] + edges[1].bias) | (e[2] + edges[2].bias) >= 0;
+                if owned {
+                    entered = true;
                     let mut w = e.map(|v| v as f64 * scale);
                     if self.flipped {
                         w.swap(1, 2);
                     }
                     visit(x as u32, y as u32, w);
+                } else if entered {
+                    break;
+                }
+                for (value, edge) in e.iter_mut().zip(&edges) {
+                    *value += edge.step_x;
                 }
             }
         }
@@ -95,6 +108,8 @@ fn cross(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
 struct Edge {
     from: [i64; 2],
     to: [i64; 2],
+    /// What the value changes by from one pixel centre to the next on the right.
+    step_x: i64,
     /// 0 if pixel centres exactly on the edge belong to the triangle (a top or a left edge), −1 otherwise.
     bias: i64,
 }
@@ -105,7 +120,7 @@ impl Edge {
         // Clockwise with y down: the inside is to the right of the direction of travel. Left edges go up, top edges
         // go right.
         let top_left = dy < 0 || (dy == 0 && dx > 0);
-        Self { from, to, bias: if top_left { 0 } else { -1 } }
+        Self { from, to, step_x: -dy * ONE, bias: if top_left { 0 } else { -1 } }
     }
 
     fn at(&self, p: [i64; 2]) -> i64 {
