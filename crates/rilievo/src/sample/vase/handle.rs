@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::stroke::cubic;
+use super::turn;
 use crate::surface::MeshParts;
 
 /// Height of the strip of islands below the vase's part of the map, as a map length.
@@ -13,7 +14,7 @@ const MARGIN: f32 = 0.08;
 const ISLANDS: [[f32; 2]; 2] = [[0.02, 0.48], [0.52, 0.98]];
 
 /// Middle line in (radius, y), from inside the neck's wall to inside the shoulder's.
-const WAY: [[f32; 2]; 4] = [[0.235, 0.735], [0.56, 0.865], [0.60, 0.66], [0.515, 0.375]];
+const WAY: [[f32; 2]; 4] = [[0.225, 0.755], [0.50, 0.865], [0.635, 0.72], [0.525, 0.365]];
 /// Half the strap's thickness and half its width.
 const HALF: [f32; 2] = [0.026, 0.052];
 
@@ -32,8 +33,8 @@ pub(super) fn add(parts: &mut MeshParts, strip_top: f32, strip_bottom: f32, side
             let joint = 1.0 + 0.45 * (2.0 * t - 1.0).powi(6);
             for j in 0..=sides {
                 // The islands' edges run along the inner side, which nobody sees.
-                let turn = j as f32 / sides as f32;
-                let (sin, cos) = (std::f32::consts::TAU * turn + std::f32::consts::PI).sin_cos();
+                let around = j as f32 / sides as f32;
+                let (sin, cos) = turn::sin_cos(f64::from(around) + 0.5);
                 let across = along.cross(out);
                 let p = Vec3::new(r, y, 0.0) + joint * (HALF[0] * cos * out + HALF[1] * sin * across);
                 let n = (cos / HALF[0] * out + sin / HALF[1] * across).normalize();
@@ -41,7 +42,7 @@ pub(super) fn add(parts: &mut MeshParts, strip_top: f32, strip_bottom: f32, side
                 let turned = |v: Vec3| Vec3::new(v.x * mirror, v.y, v.z * mirror);
                 parts.positions.push(turned(p));
                 parts.normals.push(turned(n));
-                let v = MARGIN + (1.0 - 2.0 * MARGIN) * turn;
+                let v = MARGIN + (1.0 - 2.0 * MARGIN) * around;
                 let [u0, u1] = island;
                 parts.uvs.push(Vec2::new(u0 + (u1 - u0) * t, strip_top + (strip_bottom - strip_top) * v));
             }

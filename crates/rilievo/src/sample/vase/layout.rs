@@ -99,11 +99,11 @@ impl Layout {
         l.strokes(0.125, Clay, 40, |w| ornament::tongue(w));
         l.last_frieze(|f| f.red_turns = true);
         l.double_line();
-        l.meander(0.092, 8);
+        l.meander(0.104, 7);
         l.double_line();
         // The main frieze, reserved in black.
         l.stripe(0.012, Glaze);
-        l.strokes(0.60, Glaze, 6, ornament::lyre_frieze);
+        l.strokes(0.63, Glaze, 6, ornament::lyre_frieze);
         l.stripe(0.012, Glaze);
         // Below: running spirals, a black zone with red lines, rays.
         l.double_line();
@@ -117,14 +117,14 @@ impl Layout {
         l.stripe(LINE, Clay);
         l.stripe(LINE, Glaze);
         let rays = p.end(6) - l.cursor - 0.055;
-        l.strokes(rays, Clay, 16, ornament::ray);
+        l.strokes(rays, Clay, 20, ornament::ray);
         l.stripe(LINE, Glaze);
         l.stripe(0.010, Clay);
         // Stem and foot.
         l.until(p.end(6) - 0.012, Glaze);
         l.ridge(p.end(6) - 0.006, 0.018, 0.014);
         l.stripe(0.024, Red);
-        l.until(p.end(8) - 0.035, Glaze);
+        l.until(p.end(8) - 0.020, Glaze);
         l.until(p.length() + 1.0, Clay);
         // The handles' strip is found by the caller; see `strip`.
         l

@@ -1,9 +1,9 @@
 //! The maps of the vase, texel by texel.
 
 use super::layout::{Ground, Layout, circumference, map_length};
-use super::noise::{fractal, mix, noise, smoothstep};
+use super::noise::{brush, mix, smoothstep, solid, surface_noise};
 use super::profile::Profile;
-use super::{CLAY, GLAZE, handle};
+use super::{CLAY, GLAZE, handle, turn};
 use crate::color::LinearRgb;
 use crate::height::HeightMap;
 use crate::{Error, Grid, MaterialMap, Result, Rgba8, par};
@@ -20,7 +20,7 @@ pub struct VaseMaps {
 }
 
 /// Fired clay, and the black glaze where it is thick.
-pub(super) const CLAY_SRGB: [u8; 3] = [200, 116, 68];
+pub(super) const CLAY_SRGB: [u8; 3] = [204, 122, 74];
 pub(super) const GLAZE_SRGB: [u8; 3] = [30, 26, 25];
 /// Clay with more iron; the slip where it is thin; the painters' added red.
 const RED_CLAY_SRGB: [u8; 3] = [172, 86, 48];
@@ -44,8 +44,7 @@ const REACH: f32 = 0.045;
 /// The maps of the vase, `width` × ¾ `width` texels; u wraps without a seam.
 ///
 /// Texels are about square on the widest part of the body. Heights of 0 … 1 come with the depth that makes them fit
-/// [`super::mesh`]. The same bits on every machine but for the last bits of the friezes' curves, which are set up with the
-/// platform's sine.
+/// [`super::mesh`]. The heights and materials are the same bits on every machine.
 ///
 /// # Errors
 /// [`Error::Parameter`] for a width below 64, [`Error::Size`] for one that is too large.
@@ -90,6 +89,31 @@ struct Painter {
     /// Length of a texel on the vase.
     texel: f32,
     bevel: f32,
+    /// Sine and cosine of each column's place around the axis.
+    around: Vec<[f32; 2]>,
+}
+
+/// A place on the map.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// 0 … 1 around.
+    u: f32,
+    /// Map length from the top.
+    s: f32,
+    /// Where it cuts the solid that the clay's grain is made of.
+    solid: [f32; 3],
+}
+
+/// Accidents of the material.
+struct Marks {
+    /// Brush marks in the glaze, about [−1, 1].
+    streaks: f32,
+    /// Grain of bare clay, about [−1, 1].
+    grain: f32,
+    /// Amount of pits in bare clay.
+    pits: f32,
+    /// Amount of engraving.
+    groove: f32,
 }
 
 /// The paint at one place, before it becomes height and colour.
@@ -114,33 +138,39 @@ impl Painter {
             palette: Palette { clay, red_clay, glaze, thin, added_red },
             texel,
             bevel: BEVEL.max(texel),
+            around: (0..width).map(|x| turn::sin_cos((f64::from(x) + 0.5) / f64::from(width)).into()).collect(),
         }
     }
 
     fn paint_row(&self, s: f32, row: &mut [Texel]) {
         let profile = Profile::get();
-        let strip = (s - profile.length()) / handle::STRIP;
+        let (radius, strip) = (profile.radius(s), (s - profile.length()) / handle::STRIP);
         let width = row.len() as f32;
-        for (x, out) in row.iter_mut().enumerate() {
+        for (x, (out, [sin, cos])) in row.iter_mut().zip(&self.around).enumerate() {
             let u = (x as f32 + 0.5) / width;
-            *out = if strip < 0.0 { self.body(u, s) } else { self.handle(u, s, strip) };
+            *out = if strip < 0.0 {
+                // Along the profile instead of straight down: the grain is no less fine on the flat shoulder.
+                self.body(Place { u, s, solid: [radius * sin, s, radius * cos] })
+            } else {
+                self.handle(Place { u, s, solid: [u, s, 10.0] }, strip)
+            };
         }
     }
 
     /// A place on the vase itself.
-    fn body(&self, u: f32, s: f32) -> Texel {
+    fn body(&self, at: Place) -> Texel {
         let profile = Profile::get();
-        let mut paint = self.paint(u, s);
+        let mut paint = self.paint(at.u, at.s);
         // A hand drew this: edges waver by half a hair.
-        paint.black += 0.0011 * fractal(u, s / circumference(), 160, 1.0, 2, self.texel / circumference(), 11);
+        paint.black += 0.0011 * solid(at.solid, 0.025, 2, self.texel, 1);
         // Light does not reach the bottom of the mouth.
-        let depth = smoothstep(profile.end(1) + 0.02, profile.start(1) * 0.6, s);
-        self.finish(u, s, &paint, self.layout.relief(s), 1.0 - 0.93 * depth)
+        let depth = smoothstep(profile.end(1) + 0.02, profile.start(1) * 0.6, at.s);
+        self.finish(at, &paint, self.layout.relief(at.s), 1.0 - 0.93 * depth)
     }
 
-    fn handle(&self, u: f32, s: f32, strip: f32) -> Texel {
+    fn handle(&self, at: Place, strip: f32) -> Texel {
         let paint = Paint { black: REACH, engraving: -REACH, red: 0.0, carved: false };
-        self.finish(u, s, &paint, 0.016 * (handle::reeds(strip) - 0.8), 1.0)
+        self.finish(at, &paint, 0.016 * (handle::reeds(strip) - 0.8), 1.0)
     }
 
     fn paint(&self, u: f32, s: f32) -> Paint {
@@ -162,32 +192,36 @@ impl Painter {
         }
     }
 
-    fn finish(&self, u: f32, s: f32, paint: &Paint, relief: f32, light: f32) -> Texel {
-        let y = s / circumference();
-        let texel = self.texel / circumference();
-        let around = |cells, stretch, octaves, seed| fractal(u, y, cells, stretch, octaves, texel, seed);
-        // Chips: rare, and likelier at edges, where the glaze lets go first.
-        let wear = around(70, 1.0, 4, 21) - 0.64 + 0.10 * smoothstep(0.012, 0.0, paint.black.abs());
-        let black = paint.black.min(-wear * 0.06);
+    fn finish(&self, at: Place, paint: &Paint, relief: f32, light: f32) -> Texel {
+        let of_size = |size, octaves, seed| solid(at.solid, size, octaves, self.texel, seed);
+        let mut black = paint.black;
+        if black > -0.02 {
+            // Chips: rare, and likelier at edges, where the glaze lets go first.
+            let wear = of_size(0.035, 4, 2) - 0.63 + 0.09 * smoothstep(0.012, 0.0, black.abs());
+            black = black.min(-wear * 0.10);
+        }
         // Engraved lines cut through the glaze to the clay.
         let ink = black.min(-paint.engraving);
-
         let coat = smoothstep(-self.bevel, self.bevel, black);
-        let cushion = smoothstep(0.0, 0.03, black);
         let groove = smoothstep(-0.003 - self.texel, 0.004, paint.engraving);
+        let bare = coat < 1.0 || groove > 0.0;
+        let marks = Marks {
+            streaks: brush(at.u, at.s / circumference(), 5, 26.0, 4, 31),
+            grain: if bare { of_size(0.0085, 3, 3) } else { 0.0 },
+            pits: if bare { smoothstep(0.26, 0.52, of_size(0.014, 2, 4)) } else { 0.0 },
+            groove,
+        };
 
-        let streaks = around(5, 26.0, 4, 31);
-        let wheel = noise(u * 3.0, s * 70.0, 3, 41) * 0.7 + noise(u * 5.0, s * 190.0, 5, 42) * 0.3;
-        let grain = around(420, 1.0, 3, 51);
-        let pits = smoothstep(0.30, 0.62, around(260, 1.0, 2, 61));
-        let rough = if paint.carved || groove > 0.0 { 1.7 } else { 1.0 };
-
-        let clay = -(if paint.carved { CARVED } else { 0.0 }) + rough * (0.0021 * grain - 0.0022 * pits);
-        let glaze = PAINT * (0.72 + 0.28 * cushion) + 0.0016 * streaks + 0.0002 * grain;
+        let cushion = smoothstep(0.0, 0.03, black);
+        let (below, rough) = if paint.carved { (CARVED, 1.6) } else { (0.0, 0.8 + 0.8 * groove) };
+        let wheel =
+            surface_noise(at.u * 3.0, at.s * 70.0, 3, 41) * 0.7 + surface_noise(at.u * 5.0, at.s * 190.0, 5, 42) * 0.3;
+        let clay = -below + rough * (0.0024 * marks.grain - 0.0022 * marks.pits);
+        let glaze = PAINT * (0.72 + 0.28 * cushion) + 0.0016 * marks.streaks;
         let height = mix(clay, glaze, coat) - ENGRAVED * groove + 0.0012 * wheel + relief;
 
         let cover = (ink / self.texel + 0.5).clamp(0.0, 1.0);
-        let color = self.color(u, y, paint, black, cover, [streaks, grain, pits, groove]) * light;
+        let color = self.color(at, paint.red, black, cover, &marks) * light;
         Texel {
             height: ((height - LOWEST) / (HIGHEST - LOWEST)).clamp(0.0, 1.0),
             material: if ink > 0.0 { GLAZE } else { CLAY },
@@ -195,21 +229,19 @@ impl Painter {
         }
     }
 
-    fn color(&self, u: f32, y: f32, paint: &Paint, black: f32, cover: f32, marks: [f32; 4]) -> LinearRgb {
-        let [streaks, grain, pits, groove] = marks;
+    fn color(&self, at: Place, red: f32, black: f32, cover: f32, marks: &Marks) -> LinearRgb {
         let p = &self.palette;
         let blend = |a: LinearRgb, b: LinearRgb, t: f32| a * (1.0 - t) + b * t;
-        let texel = self.texel / circumference();
-        let cloud = fractal(u, y, 4, 1.4, 4, texel, 71);
-        let stain = smoothstep(0.1, 0.7, fractal(u, y, 9, 1.0, 4, texel, 81));
+        let cloud = solid(at.solid, 0.7, 4, self.texel, 5);
         // Dust and shade gather at the foot of the glaze and in the lines.
-        let shade = 1.0 - 0.30 * smoothstep(0.012, 0.0, -black) * (1.0 - cover) - 0.22 * pits - 0.18 * groove;
-        let clay = blend(p.clay, p.red_clay, (0.35 + 0.8 * cloud + 0.25 * stain).clamp(0.0, 1.0));
-        let clay = clay * (shade * (1.0 + 0.16 * grain));
+        let corner = smoothstep(0.012, 0.0, -black) * (1.0 - cover);
+        let shade = 1.0 - 0.30 * corner - 0.22 * marks.pits - 0.18 * marks.groove;
+        let clay = blend(p.clay, p.red_clay, (0.38 + 1.0 * cloud).clamp(0.0, 1.0));
+        let clay = clay * (shade * (1.0 + 0.16 * marks.grain));
         // The slip turns brown where it ran thin: at its edges and between brush marks.
-        let thin = 0.55 * smoothstep(0.007, 0.0, black) + 0.45 * smoothstep(0.12, 0.6, -streaks + 0.6 * cloud);
+        let thin = 0.55 * smoothstep(0.007, 0.0, black) + 0.26 * smoothstep(0.10, 0.75, 0.5 * cloud - marks.streaks);
         let glaze = blend(p.glaze, p.thin, thin.clamp(0.0, 0.7));
-        let glaze = blend(glaze, p.added_red * (1.0 + 0.3 * streaks), paint.red * 0.9);
+        let glaze = blend(glaze, p.added_red * (1.0 + 0.3 * marks.streaks), red * 0.9);
         blend(clay, glaze, cover)
     }
 }

@@ -5,10 +5,11 @@ use glam::{Vec2, Vec3};
 use super::handle;
 use super::layout::map_length;
 use super::profile::{PIECES, Point, Profile};
+use super::turn;
 use crate::surface::{Mesh, MeshParts};
 use crate::{Error, Result};
 
-/// Faces around the vase that give a smooth outline at a low price: just under a thousand triangles in all.
+/// Faces around the vase that give a smooth outline at a low price: about a thousand triangles in all.
 pub const DEFAULT_SEGMENTS: u32 = 24;
 
 /// The vase as a low-poly mesh: a surface of revolution about +Y and two handles at ±X, 2 high, centred.
@@ -34,7 +35,7 @@ pub fn mesh(segments: u32) -> Result<Mesh> {
         }
     }
     let strip = [profile.length() / map_length(), 1.0];
-    handle::add(&mut parts, strip[0], strip[1], share(6).max(4), share(7).max(3));
+    handle::add(&mut parts, strip[0], strip[1], share(5).max(4), share(9).max(3));
     Mesh::new(weld(parts))
 }
 
@@ -43,7 +44,7 @@ fn add_ring(parts: &mut MeshParts, top: Point, bottom: Point, segments: u32) {
     let vertex = |parts: &mut MeshParts, p: Point, u: f32| {
         // The seam's two columns stand at the very same place.
         let around = if u < 1.0 { u } else { 0.0 };
-        let (sin, cos) = (std::f32::consts::TAU * (around - 0.5)).sin_cos();
+        let (sin, cos) = turn::sin_cos(f64::from(around) - 0.5);
         parts.positions.push(Vec3::new(p.radius * sin, p.y, p.radius * cos));
         parts.normals.push(Vec3::new(p.normal[0] * sin, p.normal[1], p.normal[0] * cos));
         parts.uvs.push(Vec2::new(u, p.s / map_length()));

@@ -9,7 +9,7 @@
 //! let maps = vase::maps(256)?;
 //! let mesh = vase::mesh(vase::DEFAULT_SEGMENTS)?;
 //! assert_eq!(maps.color.size(), (256, 192));
-//! assert!(mesh.triangles().len() < 1000);
+//! assert!(mesh.triangles().len() < 1100);
 //! # Ok::<(), rilievo::Error>(())
 //! ```
 
@@ -22,6 +22,7 @@ mod noise;
 mod ornament;
 mod profile;
 mod stroke;
+mod turn;
 
 pub use maps::{VaseMaps, maps};
 pub use mesh::{DEFAULT_SEGMENTS, mesh};
@@ -38,7 +39,7 @@ pub const GLAZE: u8 = 1;
 pub fn materials_over_color() -> [Material; 2] {
     [
         Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::gray(0.035), shininess: 9.0 },
-        Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::new(0.42, 0.40, 0.37), shininess: 55.0 },
+        Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::new(0.50, 0.48, 0.45), shininess: 48.0 },
     ]
 }
 

@@ -1,6 +1,7 @@
 //! The ornaments of the friezes, drawn in cells of height 1.
 
 use super::stroke::{Pen, Point, cubic};
+use super::turn;
 
 /// A figure and the lines engraved into it.
 #[derive(Debug, Clone, Default)]
@@ -38,9 +39,12 @@ pub(super) fn palmette(side: u32, spread: f32, droop: f32) -> Ornament {
         let outward = k as f32 / side as f32;
         let angle = k as f32 * spread;
         let reach = 1.0 - droop * outward * outward;
-        // Petals touch where their round ends are widest; 2.5 instead of 2 leaves the gap between them.
-        let round = reach * spread / (2.5 + spread);
-        let dir = |a: f32, r: f32| [r * a.sin(), 0.1 + (r - 0.1) * a.cos()];
+        // Petals would touch where their round ends are widest; 2.6 instead of 2 leaves the gap between them.
+        let round = reach * spread / (2.6 + spread);
+        let dir = |angle: f32, r: f32| {
+            let (sin, cos) = turn::sin_cos(f64::from(angle) / std::f64::consts::TAU);
+            [r * sin, 0.1 + (r - 0.1) * cos]
+        };
         // Petals rise before they bend outward: the fan of a flame, not of a wheel.
         let way = [
             dir(angle * 0.9, 0.2),
@@ -48,12 +52,11 @@ pub(super) fn palmette(side: u32, spread: f32, droop: f32) -> Ornament {
             dir(angle * 0.96, 0.72 * reach),
             dir(angle * 1.03, reach - round),
         ];
-        o.figure.sweep(8, |t| cubic(way, t), |t| 0.012 + (round - 0.012) * t * (1.6 - 0.6 * t));
-        o.engraving.sweep(6, |t| cubic(way, 0.35 + 0.6 * t), |t| 0.010 + 0.008 * t);
+        o.figure.sweep(8, |t| cubic(way, t), |t| 0.014 + (round - 0.014) * t * (0.7 + 0.3 * t));
+        o.engraving.sweep(6, |t| cubic(way, 0.35 + 0.6 * t), |t| 0.007 + 0.005 * t);
     }
-    // The heart: a half disc, and the arc that parts it from the petals.
-    o.figure.line([0.0, 0.045], 0.045, [0.07, 0.03], 0.03);
-    o.figure.dot([0.0, 0.055], 0.065);
+    // The heart; it must not reach the petals.
+    o.figure.line([0.0, 0.05], 0.072, [0.0, 0.12], 0.03);
     o.mirror();
     o
 }
@@ -61,11 +64,11 @@ pub(super) fn palmette(side: u32, spread: f32, droop: f32) -> Ornament {
 /// A lotus flower: two sepals that bend outward, three petals between; base in the origin, height about 1.
 pub(super) fn lotus() -> Ornament {
     let mut o = Ornament::default();
-    o.leaf([[0.03, 0.02], [0.06, 0.42], [0.20, 0.66], [0.52, 0.86]], 0.085);
-    o.leaf([[0.03, 0.28], [0.06, 0.55], [0.12, 0.75], [0.24, 0.96]], 0.052);
+    o.leaf([[0.03, 0.02], [0.06, 0.42], [0.20, 0.66], [0.50, 0.88]], 0.105);
+    o.leaf([[0.03, 0.28], [0.06, 0.55], [0.12, 0.75], [0.23, 0.98]], 0.062);
     o.figure.line([0.0, 0.02], 0.06, [0.05, 0.05], 0.03);
     o.mirror();
-    o.leaf([[0.0, 0.30], [0.0, 0.5], [0.0, 0.8], [0.0, 1.06]], 0.055);
+    o.leaf([[0.0, 0.30], [0.0, 0.5], [0.0, 0.8], [0.0, 1.06]], 0.068);
     o
 }
 
@@ -73,7 +76,7 @@ pub(super) fn lotus() -> Ornament {
 pub(super) fn palmette_lotus_chain(width: f32) -> Ornament {
     let mut o = Ornament::default();
     let half = width / 2.0;
-    o.stamp(&palmette(4, 0.40, 0.36), [0.0, 0.20], 0.74, false);
+    o.stamp(&palmette(4, 0.38, 0.50), [0.0, 0.20], 0.76, false);
     o.stamp(&lotus(), [half, 0.20], 0.70, false);
     // Arcs from bud to bud below, with a bead where they meet.
     let mut arcs = Ornament::default();
@@ -91,27 +94,27 @@ pub(super) fn lyre_frieze(width: f32) -> Ornament {
     let line = 0.0155;
     // Right half of the lyre: a volute that runs out into the tendril around the palmette.
     let centre = [0.165, 0.175];
-    o.figure.spiral(centre, -4.5 * std::f32::consts::PI, -0.5 * std::f32::consts::PI, 0.018, 0.118, 0.012, line);
+    o.figure.spiral(centre, -2.25, -0.25, 0.018, 0.118, 0.012, line);
     o.figure.dot(centre, 0.026);
     let foot = [centre[0], centre[1] - 0.118];
-    let side = [half * 0.83, 0.50];
-    o.figure.curve([foot, [0.30, foot[1]], [half * 0.83, 0.22], side], |_| line);
-    o.figure.curve([side, [half * 0.83, 0.74], [0.17, 0.84], [0.0, 0.985]], |t| line * (1.0 - 0.35 * t));
-    // A tendril curls off into the gap and carries a bud.
-    o.figure.curve([[half * 0.80, 0.36], [half * 0.92, 0.47], [half * 0.97, 0.52], [half, 0.62]], |t| {
+    let side = [half * 0.855, 0.50];
+    o.figure.curve([foot, [0.30, foot[1]], [half * 0.855, 0.22], side], |_| line);
+    o.figure.curve([side, [half * 0.855, 0.78], [0.27, 0.955], [0.0, 0.955]], |_| line);
+    // A tendril curls off into the gap and carries a leaf.
+    o.figure.curve([[half * 0.80, 0.265], [half * 0.84, 0.36], [half * 0.97, 0.33], [half, 0.42]], |t| {
         line * (0.9 - 0.3 * t)
     });
     o.mirror();
     // Between the volutes: binding, drop and heart.
     o.figure.line([-0.05, 0.235], 0.018, [0.05, 0.235], 0.018);
     o.figure.line([0.0, 0.17], 0.028, [0.0, 0.07], 0.006);
-    o.stamp(&palmette(5, 0.335, 0.34), [0.0, 0.275], 0.60, false);
+    o.stamp(&palmette(6, 0.29, 0.62), [0.0, 0.275], 0.585, false);
     // Between the lyres: a hanging palmette, a standing one, and a leaf.
     let small = palmette(3, 0.43, 0.32);
     o.stamp(&small, [half, 0.985], 0.265, true);
     o.stamp(&small, [half, 0.02], 0.245, false);
-    o.leaf([[half, 0.30], [half, 0.38], [half, 0.48], [half, 0.60]], 0.032);
-    o.figure.dot([half, 0.665], 0.022);
+    o.leaf([[half, 0.37], [half, 0.45], [half, 0.53], [half, 0.635]], 0.036);
+    o.figure.dot([half, 0.668], 0.020);
     o
 }
 
@@ -120,8 +123,7 @@ pub(super) fn running_spiral(width: f32) -> Ornament {
     let mut o = Ornament::default();
     let half = width / 2.0;
     let centre = [0.0, 0.50];
-    let tau = std::f32::consts::TAU;
-    o.figure.spiral(centre, -0.25 * tau - 1.35 * tau, -0.25 * tau, 0.06, 0.36, 0.05, 0.075);
+    o.figure.spiral(centre, -1.6, -0.25, 0.06, 0.36, 0.05, 0.075);
     o.figure.dot(centre, 0.10);
     let start = [0.0, 0.14];
     o.figure.curve([start, [half * 0.9, 0.12], [half * 0.6, 0.88], [width - 0.36 * 0.6, 0.80]], |_| 0.075);
@@ -141,7 +143,7 @@ pub(super) fn tongue(width: f32) -> Ornament {
 /// A ray: a pointed leaf with straight sides that rises from the foot.
 pub(super) fn ray(width: f32) -> Ornament {
     let mut o = Ornament::default();
-    o.figure.line([0.0, -0.05], width * 0.40, [0.0, 0.93], 0.008);
+    o.figure.line([0.0, -0.05], width * 0.47, [0.0, 0.95], 0.006);
     o.engraving.line([0.0, 0.05], width * 0.035, [0.0, 0.62], width * 0.012);
     o
 }

@@ -15,16 +15,16 @@ pub(super) struct Piece {
 /// The curves, in order. The mouth, wall, lip and foot of an Attic neck amphora: mouth about 2/5 and foot about 1/3 of
 /// the height wide, the neck a quarter of the height, the widest place at 3/5 of it.
 pub(super) const PIECES: [Piece; 10] = [
-    piece([[0.0, 0.40], [0.12, 0.40], [0.20, 0.45], [0.205, 0.55]], 1, 0.30),
-    piece([[0.205, 0.55], [0.215, 0.72], [0.24, 0.84], [0.325, 0.975]], 1, 0.40),
-    piece([[0.325, 0.975], [0.34, 1.0], [0.388, 1.008], [0.398, 0.97]], 2, 1.0),
-    piece([[0.398, 0.97], [0.402, 0.905], [0.345, 0.862], [0.292, 0.848]], 2, 1.0),
-    piece([[0.292, 0.848], [0.252, 0.77], [0.236, 0.66], [0.268, 0.556]], 2, 1.0),
-    piece([[0.268, 0.556], [0.45, 0.53], [0.622, 0.40], [0.628, 0.18]], 3, 1.0),
-    piece([[0.628, 0.18], [0.634, -0.10], [0.385, -0.52], [0.212, -0.862]], 4, 1.0),
-    piece([[0.212, -0.862], [0.214, -0.892], [0.25, -0.900], [0.30, -0.905]], 1, 1.0),
-    piece([[0.30, -0.905], [0.352, -0.915], [0.37, -0.968], [0.343, -1.0]], 2, 1.0),
-    piece([[0.343, -1.0], [0.26, -0.975], [0.14, -0.97], [0.0, -0.97]], 1, 0.45),
+    piece([[0.0, 0.40], [0.12, 0.40], [0.20, 0.45], [0.203, 0.55]], 1, 0.30),
+    piece([[0.203, 0.55], [0.210, 0.72], [0.24, 0.86], [0.312, 0.982]], 1, 0.40),
+    piece([[0.312, 0.982], [0.325, 1.004], [0.362, 1.004], [0.371, 0.975]], 1, 1.0),
+    piece([[0.371, 0.975], [0.376, 0.915], [0.330, 0.882], [0.282, 0.868]], 2, 1.0),
+    piece([[0.282, 0.868], [0.250, 0.80], [0.232, 0.68], [0.262, 0.556]], 2, 1.0),
+    piece([[0.262, 0.556], [0.45, 0.525], [0.620, 0.41], [0.628, 0.19]], 4, 1.0),
+    piece([[0.628, 0.19], [0.636, -0.12], [0.425, -0.49], [0.196, -0.872]], 4, 1.0),
+    piece([[0.196, -0.872], [0.198, -0.897], [0.225, -0.905], [0.265, -0.910]], 1, 1.0),
+    piece([[0.265, -0.910], [0.310, -0.918], [0.328, -0.968], [0.306, -1.0]], 2, 1.0),
+    piece([[0.306, -1.0], [0.24, -0.978], [0.14, -0.97], [0.0, -0.97]], 1, 0.45),
 ];
 
 const fn piece(control: [[f32; 2]; 4], rings: u32, share: f32) -> Piece {
@@ -103,10 +103,27 @@ impl Profile {
         self.samples[piece][STEPS].s
     }
 
-    /// `n + 1` points that cut a curve into `n` parts of equal length.
+    /// `n + 1` points that cut a curve into `n` parts, shorter where it bends.
+    ///
+    /// Parts are equal in the sum of their share of the length and twice their share of the bend: equal lengths waste
+    /// faces on the nearly straight lower body, equal bends leave it with none.
     pub(super) fn cut(&self, piece: usize, n: u32) -> impl Iterator<Item = Point> + '_ {
-        let (start, end) = (self.start(piece), self.end(piece));
-        (0..=n).map(move |i| self.on_piece(piece, start + (end - start) * i as f32 / n as f32))
+        let points = &self.samples[piece];
+        let bend = |w: &[Point]| {
+            let d = [w[1].normal[0] - w[0].normal[0], w[1].normal[1] - w[0].normal[1]];
+            (d[0] * d[0] + d[1] * d[1]).sqrt()
+        };
+        let (length, bends) = (self.end(piece) - self.start(piece), points.windows(2).map(bend).sum::<f32>());
+        let mut sums = vec![0.0f32];
+        for w in points.windows(2) {
+            sums.push(sums[sums.len() - 1] + (w[1].s - w[0].s) / length + 2.0 * bend(w) / bends.max(1e-6));
+        }
+        (0..=n).map(move |i| {
+            let goal = sums[STEPS] * i as f32 / n as f32;
+            let right = sums.partition_point(|&x| x < goal).clamp(1, STEPS);
+            let t = (goal - sums[right - 1]) / (sums[right] - sums[right - 1]);
+            self.on_piece(piece, points[right - 1].s + t * (points[right].s - points[right - 1].s))
+        })
     }
 
     /// Radius at map length `s`, clamped to the ends.

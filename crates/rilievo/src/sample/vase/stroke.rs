@@ -3,6 +3,8 @@
 //! One primitive is enough for palmettes, lotus flowers, spirals, tongues and rays, and its distance gives crisp
 //! materials, antialiased colours and bevels of a fixed width from the same number, at any resolution.
 
+use super::turn;
+
 /// A point in an ornament's cell: x to the right, y up.
 pub(super) type Point = [f32; 2];
 
@@ -64,12 +66,12 @@ impl Pen {
         self.sweep(14, |t| cubic(control, t), half);
     }
 
-    /// A spiral about `centre` from angle `from` to `to` (radians, counter-clockwise from +x), its radius running from
+    /// A spiral about `centre` from `from` to `to` (turns, counter-clockwise from +x), its radius running from
     /// `inner` to `outer` and its half-width from `thin` to `thick`.
     pub(super) fn spiral(&mut self, centre: Point, from: f32, to: f32, inner: f32, outer: f32, thin: f32, thick: f32) {
-        let n = ((to - from).abs() * 5.0).ceil() as u32;
+        let n = ((to - from).abs() * 32.0).ceil() as u32;
         let way = |t: f32| {
-            let (sin, cos) = (from + (to - from) * t).sin_cos();
+            let (sin, cos) = turn::sin_cos(f64::from(from + (to - from) * t));
             let r = inner + (outer - inner) * t;
             [centre[0] + r * cos, centre[1] + r * sin]
         };
@@ -165,7 +167,7 @@ mod tests {
     #[test]
     fn buckets_change_nothing_within_reach() {
         let mut pen = Pen::default();
-        pen.spiral([0.1, 0.5], 0.0, 9.0, 0.02, 0.4, 0.01, 0.03);
+        pen.spiral([0.1, 0.5], 0.0, 1.5, 0.02, 0.4, 0.01, 0.03);
         pen.curve([[-0.5, 0.0], [0.2, 0.3], [0.0, 0.9], [0.3, 1.0]], |t| 0.04 * t);
         pen.dot([0.55, 0.2], 0.1);
         let motif = Motif::new(&pen, 1.2, 0.1);
