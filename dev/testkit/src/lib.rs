@@ -2,7 +2,9 @@
 #![forbid(unsafe_code)]
 
 mod data;
+mod npy;
 mod random;
 
 pub use data::{shared_data, shared_file};
+pub use npy::read_npy_f16;
 pub use random::{Random, uniform_sphere};

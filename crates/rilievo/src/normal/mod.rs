@@ -97,6 +97,18 @@ impl<S: Space> Normal<S> {
     }
 }
 
+impl Normal<Tangent> {
+    /// The normal of a relief with slopes dh/dx (to the right) and dh/dy (up): `normalize(−dh/dx, −dh/dy, 1)`.
+    ///
+    /// The slopes must be at most [`crate::height::MAX_HEIGHT`] in size for their squares to stay finite. No branch, so
+    /// that loops over texels become vector code.
+    pub(crate) fn from_slopes(dx: f32, dy: f32) -> Self {
+        let length = (dx * dx + dy * dy + 1.0).sqrt();
+        // 0 − x instead of −x: flat ground has no negative zeros.
+        Self(Vec3::new((0.0 - dx) / length, (0.0 - dy) / length, 1.0 / length), PhantomData)
+    }
+}
+
 /// One unit normal per texel.
 pub type NormalMap<S> = Grid<Normal<S>>;
 
