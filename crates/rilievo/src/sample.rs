@@ -1,2 +1,0 @@
-//! The built-in sample.
-pub mod vase;

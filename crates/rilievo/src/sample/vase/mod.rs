@@ -1,0 +1,54 @@
+//! A Greek vase: an Attic neck amphora with engraved ornament, after fig. 10 of Tarini et al. 2000.
+//!
+//! The figure's recipe: black and clay are two materials, the paint is "thicker", the engravings lie below, and the
+//! depressed parts are rougher. Here [`mesh`] is a low-poly surface of revolution with two handles, and [`maps`] draws
+//! the ornament on it at any width: everything is a signed distance, so edges stay crisp and bevels keep their size.
+//!
+//! ```
+//! use rilievo::sample::vase;
+//! let maps = vase::maps(256)?;
+//! let mesh = vase::mesh(vase::DEFAULT_SEGMENTS)?;
+//! assert_eq!(maps.color.size(), (256, 192));
+//! assert!(mesh.triangles().len() < 1100);
+//! # Ok::<(), rilievo::Error>(())
+//! ```
+
+mod handle;
+mod layout;
+mod maps;
+mod meander;
+mod mesh;
+mod noise;
+mod ornament;
+mod profile;
+mod stroke;
+mod turn;
+
+pub use maps::{VaseMaps, maps};
+pub use mesh::{DEFAULT_SEGMENTS, mesh};
+
+use crate::color::LinearRgb;
+use crate::light::Material;
+
+/// The material number of the clay.
+pub const CLAY: u8 = 0;
+/// The material number of the black glaze.
+pub const GLAZE: u8 = 1;
+
+/// [`CLAY`] and [`GLAZE`] for use over [`VaseMaps::color`]: reflectances that leave the map's colours as they are.
+pub fn materials_over_color() -> [Material; 2] {
+    [
+        Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::gray(0.035), shininess: 9.0 },
+        Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::new(0.50, 0.48, 0.45), shininess: 48.0 },
+    ]
+}
+
+/// [`CLAY`] and [`GLAZE`] with their own colours, for use without a colour map: a table of (normal, material) pairs
+/// is then the whole appearance, as in fig. 10 of Tarini et al. 2000.
+pub fn materials_colored() -> [Material; 2] {
+    let [clay, glaze] = materials_over_color();
+    [
+        Material { diffuse: LinearRgb::from_srgb(maps::CLAY_SRGB), ..clay },
+        Material { diffuse: LinearRgb::from_srgb(maps::GLAZE_SRGB), ..glaze },
+    ]
+}
