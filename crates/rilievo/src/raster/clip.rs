@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn weights_reproduce_the_cut_corners() {
-        let t = [DVec4::new(-30.0, 0.3, 0.4, 1.0), DVec4::new(9.0, 22.0, 1.5, 1.2), DVec4::new(0.1, -0.2, -0.5, 0.1)];
+        let t = [DVec4::new(-30.0, 0.3, 0.4, 1.0), DVec4::new(9.0, 22.0, 0.5, 1.2), DVec4::new(0.1, -0.2, 0.5, 1.0)];
         let polygon = clip(t);
         assert!(polygon.len() > 3);
         for c in polygon {
