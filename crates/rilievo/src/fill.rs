@@ -15,6 +15,10 @@ const ONE: i64 = 1 << SUBPIXEL_BITS;
 /// The farthest from the origin a coordinate may lie, in pixels, for edge products to fit 64 bits with room to spare.
 pub const MAX_COORDINATE: f64 = (1u64 << 20) as f64;
 
+/// From this width of its bounding box on, a row's run is computed instead of searched for: three divisions cost as much
+/// as looking at a few dozen pixels.
+const WIDE_ROW: i64 = 32;
+
 /// A triangle snapped to the sub-pixel grid, oriented so that its area is positive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triangle {
@@ -70,29 +74,21 @@ impl Triangle {
         // Edge i lies opposite to corner i.
         let edges = [Edge::new(b, c), Edge::new(c, a), Edge::new(a, b)];
         let scale = 1.0 / self.area2 as f64;
-        if xs.is_empty() {
-            return;
-        }
+        let wide = xs.end - xs.start > WIDE_ROW;
         for y in ys {
-            // Edge values are linear, so along a row they are exact sums; a triangle is convex, so its pixels in a row
-            // are one run, and the row is done where the run ends.
-            let mut e = edges.each_ref().map(|edge| edge.at([xs.start * ONE + ONE / 2, y * ONE + ONE / 2]));
-            let mut entered = false;
-            for x in xs.clone() {
-                // Not negative in any of the three: no sign bit in their union.
-                let owned = (e[0] + edges[0].bias) | (e[1] + edges[1].bias) | (e[2] + edges[2].bias) >= 0;
-                if owned {
-                    entered = true;
+            let mut run = xs.clone();
+            if wide {
+                edges.iter().for_each(|edge| edge.narrow(y, &mut run));
+            }
+            for x in run {
+                let centre = [x * ONE + ONE / 2, y * ONE + ONE / 2];
+                let e = edges.each_ref().map(|edge| edge.at(centre));
+                if edges.iter().zip(e).all(|(edge, value)| value + edge.bias >= 0) {
                     let mut w = e.map(|v| v as f64 * scale);
                     if self.flipped {
                         w.swap(1, 2);
                     }
                     visit(x as u32, y as u32, w);
-                } else if entered {
-                    break;
-                }
-                for (value, edge) in e.iter_mut().zip(&edges) {
-                    *value += edge.step_x;
                 }
             }
         }
@@ -108,8 +104,6 @@ fn cross(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
 struct Edge {
     from: [i64; 2],
     to: [i64; 2],
-    /// What the value changes by from one pixel centre to the next on the right.
-    step_x: i64,
     /// 0 if pixel centres exactly on the edge belong to the triangle (a top or a left edge), −1 otherwise.
     bias: i64,
 }
@@ -120,11 +114,23 @@ impl Edge {
         // Clockwise with y down: the inside is to the right of the direction of travel. Left edges go up, top edges
         // go right.
         let top_left = dy < 0 || (dy == 0 && dx > 0);
-        Self { from, to, step_x: -dy * ONE, bias: if top_left { 0 } else { -1 } }
+        Self { from, to, bias: if top_left { 0 } else { -1 } }
     }
 
     fn at(&self, p: [i64; 2]) -> i64 {
         cross(self.from, self.to, p)
+    }
+
+    /// Takes from a run of pixels in row `y` those that lie outside.
+    fn narrow(&self, y: i64, run: &mut Range<i64>) {
+        // Inside is value + i · step + bias ≥ 0 for the i-th pixel of the run, solved by division with rounding down: exact.
+        let value = self.at([run.start * ONE + ONE / 2, y * ONE + ONE / 2]) + self.bias;
+        match (self.from[1] - self.to[1]) * ONE {
+            0 if value < 0 => run.end = run.start,
+            0 => {}
+            step if step > 0 => run.start += (-value.div_euclid(step)).max(0),
+            step => run.end = run.end.min(run.start + value.div_euclid(-step) + 1),
+        }
     }
 }
 

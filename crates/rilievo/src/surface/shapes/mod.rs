@@ -46,7 +46,7 @@ pub fn plane_grid(aspect: f32, columns: u32, rows: u32) -> Result<Mesh> {
 ///
 /// A world map lies on it as on a globe: north is +Y, longitude 0 (u = ½) faces +Z, east is to the right. A pole has
 /// one vertex for each segment, in the middle of it in u: each triangle there then shows its own slice of the top row,
-/// as evenly as triangles can.
+/// as evenly as triangles can. ([`Mesh::with_tangents`] bounds how many triangles may meet there.)
 ///
 /// # Errors
 /// [`Error::Parameter`] for fewer than 3 segments or 2 rings, or too many of them.
