@@ -4,5 +4,5 @@
 mod data;
 mod random;
 
-pub use data::{shared_data, shared_file};
+pub use data::{has_program, shared_data, shared_file, skip};
 pub use random::{Random, uniform_sphere};
