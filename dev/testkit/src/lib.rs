@@ -5,6 +5,6 @@ mod data;
 mod npy;
 mod random;
 
-pub use data::{shared_data, shared_file};
+pub use data::{has_program, shared_data, shared_file, skip};
 pub use npy::read_npy_f16;
 pub use random::{Random, uniform_sphere};

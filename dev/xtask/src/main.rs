@@ -1,2 +1,52 @@
-//! The developer commands.
-fn main() {}
+//! The developer's commands, each in a file of its own: `cargo xtask COMMAND`.
+//!
+//! This crate is built before anything else, so it depends on none of the others and on few crates.
+#![forbid(unsafe_code)]
+#![expect(clippy::print_stderr, reason = "a tool for the terminal; stdout belongs to the programs it runs")]
+
+mod bench;
+mod bless;
+mod demo;
+mod hygiene;
+mod needs;
+mod run;
+mod skips;
+mod smoke;
+mod test;
+mod workspace;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", about = "The developer's commands of rilievo")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Check everything: format, lints, tests, documentation, hygiene, and the real program.
+    Test(test::Options),
+    /// Say which external tools are missing, what for, and how to get them.
+    Needs,
+    /// Run the whole pipeline on the built-in vase.
+    Demo(demo::Options),
+    /// Take today's pictures as the golden ones.
+    Bless,
+    /// Check the files themselves: paths, sizes, manifests, licences.
+    Hygiene,
+    /// Measure against peers.
+    Bench(bench::Options),
+}
+
+fn main() -> anyhow::Result<()> {
+    match Arguments::parse().command {
+        Task::Test(options) => test::run(&options),
+        Task::Needs => needs::report(),
+        Task::Demo(options) => demo::run(&options),
+        Task::Bless => bless::run(),
+        Task::Hygiene => hygiene::run(),
+        Task::Bench(options) => bench::run(&options),
+    }
+}

@@ -1,0 +1,237 @@
+//! `cargo xtask needs`: the external tools, what for, and how to get them.
+
+use crate::run::{Run, has_cargo_command, is_ci, on_path};
+use anyhow::{Result, bail};
+
+/// What becomes of the work without a tool.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Without {
+    /// Nothing builds.
+    Stop,
+    /// Something is skipped, and said so; with `CI=true` that is a failure.
+    Skip,
+    /// The same work is done another way, or was never promised.
+    Fine,
+}
+
+/// One external tool.
+struct Tool {
+    name: &'static str,
+    /// Any one of these programs will do. A cargo subcommand is spelled `cargo NAME`.
+    programs: &'static [&'static str],
+    purpose: &'static str,
+    without: Without,
+    debian: Option<&'static str>,
+    /// How to get it elsewhere.
+    hint: &'static str,
+}
+
+const TOOLS: &[Tool] = &[
+    Tool {
+        name: "C compiler",
+        programs: &["cc", "gcc", "clang"],
+        purpose: "builds Zstandard for KTX2 files",
+        without: Without::Stop,
+        debian: Some("gcc libc6-dev"),
+        hint: "install gcc or clang",
+    },
+    Tool {
+        name: "C++ compiler",
+        programs: &["c++", "g++", "clang++"],
+        purpose: "builds the reference of the FLIP measure, for tests",
+        without: Without::Stop,
+        debian: Some("g++"),
+        hint: "install g++ or clang",
+    },
+    Tool {
+        name: "rustfmt",
+        programs: &["cargo fmt"],
+        purpose: "checks the format",
+        without: Without::Skip,
+        debian: None,
+        hint: "rustup component add rustfmt",
+    },
+    Tool {
+        name: "clippy",
+        programs: &["cargo clippy"],
+        purpose: "checks the lints",
+        without: Without::Skip,
+        debian: None,
+        hint: "rustup component add clippy",
+    },
+    Tool {
+        name: "git",
+        programs: &["git"],
+        purpose: "lists the files for the hygiene step",
+        without: Without::Skip,
+        debian: Some("git"),
+        hint: "install git",
+    },
+    Tool {
+        name: "pngquant",
+        programs: &["pngquant"],
+        purpose: "makes palette pictures that the import tests read",
+        without: Without::Skip,
+        debian: Some("pngquant"),
+        hint: "install pngquant",
+    },
+    Tool {
+        name: "pnmquant",
+        programs: &["pnmquant"],
+        purpose: "makes palette pictures that the import tests read",
+        without: Without::Skip,
+        debian: Some("netpbm"),
+        hint: "install netpbm",
+    },
+    Tool {
+        name: "pngtopnm",
+        programs: &["pngtopnm"],
+        purpose: "turns pictures into what pnmquant reads",
+        without: Without::Skip,
+        debian: Some("netpbm"),
+        hint: "install netpbm",
+    },
+    Tool {
+        name: "cargo-nextest",
+        programs: &["cargo nextest"],
+        purpose: "runs tests faster and with a time limit; cargo test does without",
+        without: Without::Fine,
+        debian: None,
+        hint: "cargo install cargo-nextest --locked",
+    },
+    Tool {
+        name: "cargo-deny",
+        programs: &["cargo deny"],
+        purpose: "checks licences and duplicates more strictly than the hygiene step",
+        without: Without::Fine,
+        debian: None,
+        hint: "cargo install cargo-deny --locked",
+    },
+];
+
+impl Tool {
+    fn is_there(&self) -> bool {
+        // On Windows the compilers are found in the registry, not on the search path: let the build find out.
+        if cfg!(windows) && self.without == Without::Stop {
+            return true;
+        }
+        self.programs.iter().any(|program| match program.strip_prefix("cargo ") {
+            Some(command) => has_cargo_command(command),
+            None => on_path(program),
+        })
+    }
+
+    fn describe(&self) -> String {
+        format!("{} is missing ({})", self.name, self.purpose)
+    }
+}
+
+/// Whether the tool of this name is there.
+pub(crate) fn has(name: &str) -> bool {
+    TOOLS.iter().find(|tool| tool.name == name).is_some_and(Tool::is_there)
+}
+
+fn missing() -> Vec<&'static Tool> {
+    TOOLS.iter().filter(|tool| !tool.is_there()).collect()
+}
+
+/// The Debian packages of these tools, each once.
+fn debian_packages(tools: &[&Tool]) -> Vec<&'static str> {
+    let mut packages: Vec<_> = tools.iter().filter_map(|tool| tool.debian).flat_map(str::split_whitespace).collect();
+    packages.sort_unstable();
+    packages.dedup();
+    packages
+}
+
+/// `cargo xtask needs`: says what is missing and installs nothing.
+pub(crate) fn report() -> Result<()> {
+    for tool in TOOLS {
+        eprintln!("{:<8} {:<14} {}", if tool.is_there() { "found" } else { "MISSING" }, tool.name, tool.purpose);
+    }
+    verdict(&missing()).map(drop)
+}
+
+/// The first step of `cargo xtask test`: as root on a Debian-like system gets what is missing, after saying so.
+/// Gives what has to be skipped.
+pub(crate) fn provide() -> Result<Vec<String>> {
+    let packages = debian_packages(&missing());
+    if !packages.is_empty() && on_path("apt-get") && is_root() {
+        eprintln!("Missing tools; getting them with apt-get, as this is root on a Debian-like system.");
+        let apt = || Run::new("apt-get").env("DEBIAN_FRONTEND", "noninteractive");
+        let got = apt()
+            .arg("update")
+            .wait()
+            .and_then(|()| apt().args(["install", "-y", "--no-install-recommends"]).args(&packages).wait());
+        if let Err(error) = got {
+            eprintln!("{error:#}");
+        }
+    }
+    verdict(&missing())
+}
+
+/// Says how to get what is missing. An error if nothing can build, or if something would be skipped in CI;
+/// otherwise what is skipped.
+fn verdict(missing: &[&Tool]) -> Result<Vec<String>> {
+    let packages = debian_packages(missing);
+    for tool in missing {
+        eprintln!("{}: {}", tool.describe(), tool.hint);
+    }
+    if !packages.is_empty() {
+        eprintln!("On Debian or Ubuntu: apt-get install --no-install-recommends {}", packages.join(" "));
+    }
+    let fatal = fatal(missing, is_ci());
+    if !fatal.is_empty() {
+        bail!("{}", fatal.join("; "));
+    }
+    Ok(missing.iter().map(|tool| tool.describe()).collect())
+}
+
+fn fatal(missing: &[&Tool], ci: bool) -> Vec<String> {
+    let stops = |tool: &&&Tool| tool.without == Without::Stop || (ci && tool.without == Without::Skip);
+    missing.iter().filter(stops).map(|tool| tool.describe()).collect()
+}
+
+fn is_root() -> bool {
+    // Asked of `id`, as the standard library has no call for it.
+    on_path("id") && Run::new("id").arg("-u").output().is_ok_and(|id| id.trim() == "0")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tool(name: &str) -> &'static Tool {
+        TOOLS.iter().find(|tool| tool.name == name).unwrap()
+    }
+
+    #[test]
+    fn packages_are_named_once_and_sorted() {
+        let tools = [tool("pnmquant"), tool("pngtopnm"), tool("C compiler"), tool("rustfmt")];
+        assert_eq!(debian_packages(&tools), ["gcc", "libc6-dev", "netpbm"]);
+    }
+
+    #[test]
+    fn missing_compiler_always_stops() {
+        assert_eq!(fatal(&[tool("C++ compiler")], false).len(), 1);
+    }
+
+    #[test]
+    fn missing_peer_stops_only_ci() {
+        assert!(fatal(&[tool("pngquant")], false).is_empty());
+        assert_eq!(fatal(&[tool("pngquant")], true).len(), 1);
+    }
+
+    #[test]
+    fn missing_convenience_never_stops() {
+        assert!(fatal(&[tool("cargo-nextest"), tool("cargo-deny")], true).is_empty());
+    }
+
+    #[test]
+    fn steps_name_tools_that_exist() {
+        for step in crate::test::STEPS {
+            for name in step.tools {
+                tool(name);
+            }
+        }
+    }
+}
