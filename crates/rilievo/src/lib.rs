@@ -1,7 +1,7 @@
 //! **rilievo**: bump mapping from end to end.
 //!
 //! A height map becomes a [`NormalMap`]; the normal map is quantised to a [`QuantizedMap`], an index map into a small
-//! table of normals; each frame only that table is lit ([`ShadeTable`]), and the surface is coloured by look-up.
+//! table of normals; each frame only that table is lit ([`light::ShadeTable`]), and the surface is coloured by look-up.
 //!
 //! The folders follow the pipeline, and the arrows between them go one way:
 //! [`grid`] and [`normal`] → [`height`] → [`surface`] → [`quantize`] → [`light`] → [`raster`] → [`measure`].

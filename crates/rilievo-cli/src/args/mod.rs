@@ -1,0 +1,13 @@
+//! Values of the command line, spelled the same in every command.
+
+mod choices;
+mod light;
+mod maps;
+mod values;
+
+pub(crate) use choices::{
+    Bits, ConventionArg, EdgesArg, EffortArg, FilterArg, MethodArg, ModelArg, SamplingArg, SpaceArg,
+};
+pub(crate) use light::{LightArgs, MaterialArgs};
+pub(crate) use maps::{HeightArgs, OntoArgs};
+pub(crate) use values::{CameraArg, ColorArg, SizeArg, pair};

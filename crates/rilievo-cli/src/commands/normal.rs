@@ -1,0 +1,157 @@
+//! `rilievo normal`: height maps to normal maps.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use rilievo::height::{self, HeightMap};
+use rilievo::normal::{DitherU8, NormalMap, encode_map_u8};
+use rilievo::surface::{Deflect, deflect_heights, deflect_normals};
+use rilievo::{Grid, Object, Space, Tangent};
+use rilievo_io as io;
+
+use crate::args::{Bits, ConventionArg, HeightArgs, OntoArgs};
+use crate::exit::{Outcome, remark, usage};
+use crate::progress::Bars;
+use crate::surface::SurfaceArg;
+use crate::{batch, inputs};
+
+const AFTER_HELP: &str = "\
+Examples:
+  rilievo normal bricks.png --depth 0.04             -> bricks_normal_gl.png, 16 bits
+  rilievo normal dem.tif --edges clamp --depth 0.03 -o dem_normal.exr
+  rilievo normal *.png --convention dx --bits 8 --dither diffusion
+  rilievo normal earth.png --onto sphere --depth 0.01 -o earth_object.png
+  rilievo normal rock_n.png --from normal --onto rock.obj
+  cat h.png | rilievo normal - -o - > n.png
+
+Heights: white is up. --depth is the height of full white as a fraction of the map's width.";
+
+/// Make normal maps of height maps, flat or bent onto a mesh.
+#[derive(Debug, clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(crate) struct Args {
+    /// Height maps: PNG, JPEG, TIFF or EXR; - is stdin.
+    #[arg(required = true, value_name = "HEIGHT")]
+    inputs: Vec<PathBuf>,
+    /// The output: a file, or a folder for several inputs. The extension chooses PNG or EXR (32-bit float).
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// What the inputs are: height maps, or tangent-space normal maps to be bent onto a mesh.
+    #[arg(long, value_enum, default_value_t = InputKind::Height)]
+    from: InputKind,
+    /// Make an object-space map for this mesh or shape (see `rilievo render --help` for the shapes).
+    #[arg(long, value_name = "MESH")]
+    onto: Option<SurfaceArg>,
+    /// Which way green points in written tangent-space maps, and in normal maps read.
+    #[arg(long, value_enum, default_value_t = ConventionArg::Gl)]
+    convention: ConventionArg,
+    /// Bits per component of PNG output.
+    #[arg(long, value_enum, default_value = "16")]
+    bits: Bits,
+    /// Dithering to 8 bits, done on normals.
+    #[arg(long, value_enum, default_value_t = Dither::None)]
+    dither: Dither,
+    #[command(flatten)]
+    height: HeightArgs,
+    #[command(flatten)]
+    deflect: OntoArgs,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum InputKind {
+    Height,
+    Normal,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Dither {
+    None,
+    /// A fixed pattern: the same at every frame, no worms.
+    Ordered,
+    /// Error diffusion: the least error over an area.
+    Diffusion,
+}
+
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    if args.from == InputKind::Normal && args.onto.is_none() {
+        return Err(usage("--from normal needs --onto MESH: a tangent-space map is bent onto a mesh"));
+    }
+    if args.dither != Dither::None && args.bits != Bits::Eight {
+        return Err(usage("--dither needs --bits 8: 16 bits have nothing to dither"));
+    }
+    let space = if args.onto.is_some() { "object" } else { args.convention.suffix() };
+    batch::run(
+        &args.inputs,
+        args.output.as_deref(),
+        |input| format!("{}_normal_{space}.png", batch::stem(input)),
+        |input, output| convert(args, input, output).with_context(|| input.display().to_string()),
+    )
+}
+
+fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
+    let progress = Bars::new(input.display().to_string());
+    if let Some(onto) = &args.onto {
+        let deflected = if args.from == InputKind::Normal {
+            let image = inputs::normals::<Tangent>(input, args.convention.into())?;
+            let options = args.deflect.options(onto, image.normals.size())?;
+            let mesh = onto.load(aspect(&image.normals))?;
+            deflect_normals(&mesh.with_tangents()?, &image.normals, &options, &progress)?
+        } else {
+            let map = read_height(&args.height, input)?;
+            let options = args.deflect.options(onto, map.heights().size())?;
+            let mesh = onto.load(aspect(map.heights()))?;
+            deflect_height_map(&mesh, &map, &args.height, &options, &progress)?
+        };
+        crate::relief::remark_overlaps(&deflected);
+        write::<Object>(args, &deflected.normals, Some(&deflected.covered), output)?;
+    } else {
+        let image = inputs::height(input)?;
+        let map = HeightMap::new(image.heights, args.height.depth)?;
+        let normals = height::to_normals(&map, args.height.filter(), args.height.edges());
+        write::<Tangent>(args, &normals, image.covered.as_ref(), output)?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// Reads a height map with its scale.
+pub(crate) fn read_height(args: &HeightArgs, input: &Path) -> Result<HeightMap> {
+    Ok(HeightMap::new(inputs::height(input)?.heights, args.depth)?)
+}
+
+/// Bends a height map onto a mesh.
+pub(crate) fn deflect_height_map(
+    mesh: &rilievo::surface::Mesh,
+    map: &HeightMap,
+    args: &HeightArgs,
+    options: &Deflect,
+    progress: &Bars,
+) -> Result<rilievo::surface::Deflected> {
+    Ok(deflect_heights(mesh, map, args.filter(), args.edges(), options, progress)?)
+}
+
+fn aspect<T>(map: &Grid<T>) -> f32 {
+    map.width() as f32 / map.height() as f32
+}
+
+fn write<S: Space>(args: &Args, normals: &NormalMap<S>, covered: Option<&Grid<bool>>, output: &Path) -> Result<()> {
+    // Object space has no "up the picture": its maps are always +Y.
+    let convention = if S::NAME == Object::NAME { ConventionArg::Gl } else { args.convention };
+    let exr = output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+    let bytes = if exr {
+        io::encode_normals_exr(normals, convention.into(), covered)?
+    } else if args.bits == Bits::Sixteen {
+        io::encode_normals_png16(normals, convention.into(), covered)?
+    } else {
+        let dither = match args.dither {
+            Dither::None => DitherU8::None,
+            Dither::Ordered => DitherU8::Ordered,
+            Dither::Diffusion => DitherU8::Diffusion,
+        };
+        let turned = normals.map(|&n| rilievo::Convention::from(convention).apply(n));
+        io::encode_normals_png8(&encode_map_u8(&turned, dither), covered)?
+    };
+    io::write_atomic(output, &bytes)?;
+    remark(format!("{}: {} x {} {}-space normals", output.display(), normals.width(), normals.height(), S::NAME));
+    Ok(())
+}

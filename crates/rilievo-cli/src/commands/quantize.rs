@@ -1,0 +1,153 @@
+//! `rilievo quantize`: normal maps to index maps with a small table of normals.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use rilievo::quantize::{self, Options, Quantized, fejes_toth_rms_rad};
+use rilievo::{MaterialMap, Object, Space, Tangent};
+use rilievo_io as io;
+use rilievo_io::SpaceKind;
+
+use crate::args::{ConventionArg, EffortArg, SpaceArg};
+use crate::exit::{Outcome, remark, usage};
+use crate::progress::Bars;
+use crate::report::Report;
+use crate::{batch, inputs};
+
+/// The most entries a palette holds.
+const PALETTE_ENTRIES: u32 = 256;
+
+const AFTER_HELP: &str = "\
+Examples:
+  rilievo quantize bricks_normal_gl.png -n 256        -> bricks_normal_gl_256.png, an indexed PNG
+  rilievo quantize bunny.png --space object           -> bunny_2048.ktx2
+  rilievo quantize vase.png --space object --materials vase_materials.png -n 1024 -o vase.ktx2 --json
+
+An indexed PNG (K up to 256) shows its normals in any viewer and is relit by rewriting its palette. KTX2 holds any K,
+with all mip levels.
+
+bound_rms_deg is the least RMS error any table of K entries reaches on a uniform sphere (Fejes Toth): a map whose
+normals crowd together does better, and 1.0 x the bound is perfect only for a sphere.";
+
+/// Quantise normal maps to an index map and a table of K normals.
+#[derive(Debug, clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(crate) struct Args {
+    /// Normal maps: PNG, JPEG, TIFF, EXR or NPY; - is stdin.
+    #[arg(required = true, value_name = "NORMALS")]
+    inputs: Vec<PathBuf>,
+    /// The output: a file (.png for K up to 256, .ktx2 for any), or a folder for several inputs.
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Entries of the table, 2 to 65536.
+    #[arg(short = 'n', long, value_name = "K", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(2..=65536))]
+    entries: u32,
+    /// The space of the normals.
+    #[arg(long, value_enum, default_value_t = SpaceArg::Tangent)]
+    space: SpaceArg,
+    /// Which way green points in the input; the output keeps it.
+    #[arg(long, value_enum, default_value_t = ConventionArg::Gl)]
+    convention: ConventionArg,
+    /// A map of material numbers (gray values or palette indices): no texel changes its material.
+    #[arg(long, value_name = "MAP")]
+    materials: Option<PathBuf>,
+    /// How hard to try.
+    #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
+    effort: EffortArg,
+    /// Print the report as JSON, one object per input.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The two kinds of files a quantised map is written to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum FileKind {
+    Png,
+    Ktx2,
+}
+
+impl FileKind {
+    fn of(output: &Path, entries: u32) -> Result<Self> {
+        let extension = output.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("ktx2") => Ok(Self::Ktx2),
+            Some("png") if entries <= PALETTE_ENTRIES => Ok(Self::Png),
+            Some("png") => Err(usage(format!(
+                "{}: an indexed PNG holds at most 256 entries, not {entries}; use -n 256 or a .ktx2 file",
+                output.display()
+            ))),
+            _ if output.as_os_str() == "-" => Ok(Self::default_for(entries)),
+            _ => Err(usage(format!("{}: write to a .png or a .ktx2 file", output.display()))),
+        }
+    }
+
+    fn default_for(entries: u32) -> Self {
+        if entries <= PALETTE_ENTRIES { Self::Png } else { Self::Ktx2 }
+    }
+
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Ktx2 => "ktx2",
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let extension = FileKind::default_for(args.entries).extension();
+    batch::run(
+        &args.inputs,
+        args.output.as_deref(),
+        |input| format!("{}_{}.{extension}", batch::stem(input), args.entries),
+        |input, output| {
+            let work = match args.space.into() {
+                SpaceKind::Tangent => convert::<Tangent>,
+                SpaceKind::Object => convert::<Object>,
+            };
+            work(args, input, output).with_context(|| input.display().to_string())
+        },
+    )
+}
+
+fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
+    let kind = FileKind::of(output, args.entries)?;
+    let image = inputs::normals::<S>(input, args.convention.into())?;
+    let materials: Option<MaterialMap> = args.materials.as_deref().map(inputs::materials).transpose()?;
+    let options = Options {
+        entries: args.entries,
+        effort: args.effort.into(),
+        materials: materials.as_ref(),
+        covered: image.covered.as_ref(),
+        mip_levels: kind == FileKind::Ktx2,
+    };
+    let started = Instant::now();
+    let quantized = quantize::quantize(&image.normals, &options, &Bars::new(input.display().to_string()))?;
+    let seconds = started.elapsed().as_secs_f64();
+    let entries = quantized.map.table().len();
+    if entries < args.entries as usize {
+        remark(format!("{}: only {entries} distinct normals, so the table has {entries} entries", input.display()));
+    }
+    let bytes = match kind {
+        FileKind::Png => io::encode_indexed_png(&quantized.map, args.convention.into())?,
+        FileKind::Ktx2 => io::encode_ktx2(&quantized.map, args.convention.into())?,
+    };
+    io::write_atomic(output, &bytes)?;
+    if output.as_os_str() != "-" {
+        report(&quantized, output, bytes.len(), seconds).print(args.json)?;
+    }
+    Ok(Outcome::Done)
+}
+
+fn report<S: Space>(quantized: &Quantized<S>, output: &Path, bytes: usize, seconds: f64) -> Report {
+    let entries = quantized.map.table().len();
+    let mut report = Report::default();
+    report
+        .add("output", output.display().to_string())
+        .add("entries", entries)
+        .add_angles(&quantized.error)
+        .add_f64("bound_rms_deg", fejes_toth_rms_rad(entries as u32).to_degrees())
+        .add("bytes", bytes)
+        .add_f64("seconds", seconds);
+    report
+}

@@ -1,0 +1,130 @@
+//! `rilievo relight`: the flat map under new light.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use rilievo::color::Picture;
+use rilievo::light::{Lighting, Material, ShadeTable, relight};
+use rilievo::{Normal, NormalTable, QuantizedMap, Space};
+use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
+
+use crate::args::{ConventionArg, LightArgs, MaterialArgs, SpaceArg};
+use crate::exit::{self, Outcome, remark, usage};
+use crate::progress::Bars;
+use crate::{batch, inputs};
+
+const AFTER_HELP: &str = "\
+Examples:
+  rilievo relight bricks_256.png --light -60,30
+  rilievo relight bricks_256.png --light -60,30,ffddaa --light 80,20,8090ff*0.5 -o lit.png
+  rilievo relight vase_2048.ktx2 --frames 36 -o turning_light.png
+  rilievo relight palette_made_by_pngquant.png --convention dx
+
+An indexed PNG is relit by rewriting its palette: no pixel is decoded.";
+
+/// Show flat maps under new light.
+#[derive(Debug, clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(crate) struct Args {
+    /// Index maps: indexed PNG or KTX2; - is stdin.
+    #[arg(required = true, value_name = "INDEXED")]
+    inputs: Vec<PathBuf>,
+    /// The output picture (PNG; animated with --frames), or a folder for several inputs.
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    light: LightArgs,
+    #[command(flatten)]
+    material: MaterialArgs,
+    /// A base colour picture of the map's size.
+    #[arg(long, value_name = "PICTURE")]
+    color: Option<PathBuf>,
+    /// Frames of an animation in which the lights go once round the vertical axis.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10000))]
+    frames: u32,
+    /// Milliseconds a frame is shown.
+    #[arg(long, value_name = "MS", default_value_t = 50)]
+    delay: u16,
+    /// The space of a palette made by another tool.
+    #[arg(long, value_enum)]
+    space: Option<SpaceArg>,
+    /// Which way green points in a palette made by another tool.
+    #[arg(long, value_enum)]
+    convention: Option<ConventionArg>,
+}
+
+impl Args {
+    fn import(&self) -> ImportAs {
+        ImportAs { space: self.space.map(Into::into), convention: self.convention.map(Into::into) }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let name = |input: &Path| format!("{}_relit.png", batch::stem(input));
+    batch::run(&args.inputs, args.output.as_deref(), name, |input, output| {
+        convert(args, input, output).with_context(|| input.display().to_string())
+    })
+}
+
+fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
+    let source = inputs::open(input)?;
+    let bytes = if args.frames == 1 && args.color.is_none() && io::is_palette_png(&source) {
+        relit_palette(args, &source)?
+    } else {
+        match inputs::indexed(&source, &args.import())?.map {
+            AnyIndexed::Tangent(map) => relit_map(args, &map, input)?,
+            AnyIndexed::Object(map) => relit_map(args, &map, input)?,
+        }
+    };
+    io::write_atomic(output, &bytes)?;
+    remark(format!("{}: relit", output.display()));
+    Ok(Outcome::Done)
+}
+
+/// Rewrites the palette and its checksum; every other byte stays.
+fn relit_palette(args: &Args, source: &Source) -> Result<Vec<u8>> {
+    let png = PalettePng::parse(source)?;
+    let palette = png.table(&args.import())?;
+    for warning in &palette.warnings {
+        exit::warn(source.name(), warning);
+    }
+    let shades = match &palette.table {
+        AnyTable::Tangent(table) => light_table(args, table, &args.light.lighting(0.0))?,
+        AnyTable::Object(table) => light_table(args, table, &args.light.lighting(0.0))?,
+    };
+    let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(|c| c.rgb()).collect();
+    Ok(png.relit(&colors)?)
+}
+
+fn relit_map<S: Space>(args: &Args, map: &QuantizedMap<S>, input: &Path) -> Result<Vec<u8>> {
+    let base: Option<Picture> = args.color.as_deref().map(inputs::picture).transpose()?;
+    let progress = Bars::new(input.display().to_string());
+    rilievo::Progress::begin(&progress, "relighting", args.frames.into());
+    let mut frames = Vec::new();
+    for frame in 0..args.frames {
+        let turn = frame as f32 / args.frames as f32 * std::f32::consts::TAU;
+        let shades = light_table(args, map.table(), &args.light.lighting(turn))?;
+        frames.push(relight(map, &shades, base.as_ref())?);
+        rilievo::Progress::advance(&progress, 1);
+    }
+    Ok(match frames.as_slice() {
+        [only] => io::encode_picture_png(only)?,
+        _ => io::encode_apng(&frames, args.delay)?,
+    })
+}
+
+/// Lights a table as seen straight from the front. The flat map lies in the picture plane, so the table's own space
+/// is the space the lights are placed in.
+fn light_table<S: Space>(
+    args: &Args,
+    table: &NormalTable<S>,
+    lighting: &Lighting<rilievo::World>,
+) -> Result<ShadeTable> {
+    let lights = lighting.lights.iter();
+    let lights = lights.map(|l| rilievo::light::DirectionalLight { direction: l.direction.relabel(), color: l.color });
+    let lighting = Lighting { ambient: lighting.ambient, lights: lights.collect() };
+    let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
+    let materials = args.material.resolve(count, |_| Material::default());
+    let shades = ShadeTable::new(table, args.light.model(), &materials, &lighting, Normal::Z);
+    shades.map_err(|e| usage(e.to_string()))
+}

@@ -1,0 +1,77 @@
+//! Reading inputs, with their warnings told.
+
+use std::path::Path;
+
+use anyhow::Result;
+use rilievo::color::Picture;
+use rilievo::{Convention, LinearRgb, MaterialMap, MipChain, Rgba8, Space};
+use rilievo_io::{AnyIndexed, HeightImage, ImportAs, IndexedFile, Limits, NormalImage, Source};
+
+use crate::exit;
+
+/// Opens a file, or stdin for `-`.
+pub(crate) fn open(path: &Path) -> Result<Source> {
+    Ok(Source::open(path, &Limits::default())?)
+}
+
+/// Reads a height map.
+pub(crate) fn height(path: &Path) -> Result<HeightImage> {
+    let source = open(path)?;
+    let image = rilievo_io::decode_height(&source, &Limits::default())?;
+    tell(&source, &image.warnings);
+    Ok(image)
+}
+
+/// Reads a normal map.
+pub(crate) fn normals<S: Space>(path: &Path, convention: Convention) -> Result<NormalImage<S>> {
+    let source = open(path)?;
+    let image = rilievo_io::decode_normals(&source, convention, &Limits::default())?;
+    tell(&source, &image.warnings);
+    Ok(image)
+}
+
+/// Reads normals from anything that holds them: a normal map, or an index map, whose exact table is then used.
+pub(crate) fn any_normals<S: Space>(source: &Source, convention: Convention) -> Result<NormalImage<S>> {
+    if !rilievo_io::is_indexed(source) {
+        let image = rilievo_io::decode_normals(source, convention, &Limits::default())?;
+        tell(source, &image.warnings);
+        return Ok(image);
+    }
+    let normals = match indexed(source, &ImportAs { space: None, convention: Some(convention) })?.map {
+        AnyIndexed::Tangent(map) => map.expand().map(|n| n.relabel()),
+        AnyIndexed::Object(map) => map.expand().map(|n| n.relabel()),
+    };
+    Ok(NormalImage { normals, covered: None, depth: rilievo_io::Depth::U16, warnings: Vec::new() })
+}
+
+/// Reads an index map with its table.
+pub(crate) fn indexed(source: &Source, import: &ImportAs) -> Result<IndexedFile> {
+    let file = rilievo_io::decode_indexed(source, import, &Limits::default())?;
+    tell(source, &file.warnings);
+    Ok(file)
+}
+
+/// Reads a material map.
+pub(crate) fn materials(path: &Path) -> Result<MaterialMap> {
+    Ok(rilievo_io::decode_materials(&open(path)?, &Limits::default())?)
+}
+
+/// Reads a picture.
+pub(crate) fn picture(path: &Path) -> Result<Picture> {
+    Ok(rilievo_io::decode_picture(&open(path)?, &Limits::default())?)
+}
+
+/// A picture as a base colour: linear light with its mip levels.
+pub(crate) fn base_color(picture: &Picture) -> MipChain<LinearRgb> {
+    let linear = picture.map(|p: &Rgba8| LinearRgb::from_srgb(p.rgb()));
+    MipChain::build(linear, |block| {
+        let sum = block.iter().fold(LinearRgb::BLACK, |sum, &&c| sum + c);
+        sum * (1.0 / block.len() as f32)
+    })
+}
+
+fn tell(source: &Source, warnings: &[String]) {
+    for warning in warnings {
+        exit::warn(source.name(), warning);
+    }
+}

@@ -1,0 +1,301 @@
+//! From a surface and its maps, as the user names them, to what the renderer draws.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::Args;
+use glam::Vec2;
+use rilievo::light::Material;
+use rilievo::quantize::{self, Effort, Options};
+use rilievo::raster::{BaseColor, Detail, Method};
+use rilievo::sample::vase;
+use rilievo::surface::{Deflected, Mesh, deflect_heights, deflect_normals};
+use rilievo::{Grid, LinearRgb, MaterialMap, MipChain, Normal, Object, QuantizedMap, Tangent, mip};
+use rilievo_io::{AnyIndexed, ImportAs, SpaceKind};
+
+use crate::args::{ConventionArg, EffortArg, HeightArgs, OntoArgs, SpaceArg};
+use crate::exit::{remark, usage};
+use crate::progress::Bars;
+use crate::surface::{SURFACE_HELP, SurfaceArg};
+use crate::{exit, inputs};
+
+/// Width of the maps of the built-in vase.
+const VASE_WIDTH: u32 = 2048;
+
+/// A surface and its maps.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct ReliefArgs {
+    #[arg(value_name = "MESH", help = SURFACE_HELP)]
+    pub(crate) surface: SurfaceArg,
+    /// A height map to emboss the surface with.
+    #[arg(long, value_name = "MAP", group = "relief", help_heading = "Maps")]
+    height: Option<PathBuf>,
+    /// A normal map (see --space).
+    #[arg(long, value_name = "MAP", group = "relief", help_heading = "Maps")]
+    normals: Option<PathBuf>,
+    /// A quantised map: indexed PNG or KTX2.
+    #[arg(long, value_name = "MAP", group = "relief", help_heading = "Maps")]
+    indexed: Option<PathBuf>,
+    /// A base colour texture.
+    #[arg(long, value_name = "PICTURE", help_heading = "Maps")]
+    color: Option<PathBuf>,
+    /// A map of material numbers, of the size of the normal map.
+    #[arg(long, value_name = "MAP", help_heading = "Maps")]
+    materials: Option<PathBuf>,
+    /// The space of --normals.
+    #[arg(long, value_enum, default_value_t = SpaceArg::Tangent, help_heading = "Maps")]
+    space: SpaceArg,
+    /// Which way green points in --normals.
+    #[arg(long, value_enum, default_value_t = ConventionArg::Gl, help_heading = "Maps")]
+    convention: ConventionArg,
+    #[command(flatten, next_help_heading = "Maps")]
+    heights: HeightArgs,
+    #[command(flatten, next_help_heading = "Maps")]
+    onto: OntoArgs,
+    /// Entries of the table (method table).
+    #[arg(short = 'n', long, value_name = "K", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(2..=65536))]
+    entries: u32,
+    /// How hard the quantiser tries.
+    #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
+    effort: EffortArg,
+}
+
+/// Everything the renderer needs of an object, owned.
+pub(crate) struct Relief {
+    pub(crate) mesh: Mesh,
+    detail: OwnedDetail,
+    base_color: Option<(MipChain<LinearRgb>, [f32; 2])>,
+    pub(crate) default_materials: DefaultMaterials,
+    /// How the table was made, if it was made here.
+    pub(crate) quantized: Option<QuantizedReport>,
+}
+
+/// Error and time of a quantisation.
+pub(crate) struct QuantizedReport {
+    pub(crate) entries: usize,
+    pub(crate) error: rilievo::measure::AngleStats,
+    pub(crate) seconds: f64,
+}
+
+/// The materials that go with a surface if the user says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DefaultMaterials {
+    Plain,
+    Vase,
+}
+
+impl DefaultMaterials {
+    /// The default of material `number`.
+    pub(crate) fn material(self, number: usize) -> Material {
+        match self {
+            Self::Vase => vase::materials_over_color().get(number).copied().unwrap_or_default(),
+            Self::Plain => Material::default(),
+        }
+    }
+}
+
+enum OwnedDetail {
+    Smooth,
+    Tangent { normals: MipChain<Normal<Tangent>>, repeat: [f32; 2], materials: Option<MipChain<u8>> },
+    Object { normals: MipChain<Normal<Object>>, materials: Option<MipChain<u8>> },
+    Indexed(Box<QuantizedMap<Object>>),
+}
+
+impl Relief {
+    /// The detail as the renderer takes it.
+    pub(crate) fn detail(&self) -> Detail<'_> {
+        match &self.detail {
+            OwnedDetail::Smooth => Detail::Smooth,
+            OwnedDetail::Tangent { normals, repeat, materials } => {
+                Detail::Tangent { normals, repeat: Vec2::from_array(*repeat), materials: materials.as_ref() }
+            }
+            OwnedDetail::Object { normals, materials } => Detail::Object { normals, materials: materials.as_ref() },
+            OwnedDetail::Indexed(map) => Detail::Indexed(map),
+        }
+    }
+
+    /// The base colour as the renderer takes it.
+    pub(crate) fn base_color(&self) -> Option<BaseColor<'_>> {
+        self.base_color.as_ref().map(|(levels, repeat)| BaseColor { levels, repeat: Vec2::from_array(*repeat) })
+    }
+
+    /// How many materials the maps name.
+    pub(crate) fn material_count(&self) -> usize {
+        let highest = |m: &Option<MipChain<u8>>| m.as_ref().and_then(|m| m.base().texels().iter().max().copied());
+        let highest = match &self.detail {
+            OwnedDetail::Smooth => None,
+            OwnedDetail::Tangent { materials, .. } | OwnedDetail::Object { materials, .. } => highest(materials),
+            OwnedDetail::Indexed(map) => map.table().spans().last().map(|s| s.material),
+        };
+        usize::from(highest.unwrap_or(0)) + 1
+    }
+}
+
+/// What was read, before it is bent, quantised or filtered.
+enum Source {
+    Nothing,
+    /// Normals of the object, where they are true, and materials.
+    Object {
+        normals: Grid<Normal<Object>>,
+        covered: Option<Grid<bool>>,
+    },
+    Tangent(Grid<Normal<Tangent>>),
+    Indexed(AnyIndexed),
+}
+
+impl ReliefArgs {
+    /// Reads, bends and quantises what `method` needs.
+    pub(crate) fn load(&self, method: Method) -> Result<Relief> {
+        let progress = Bars::new(self.surface.stem());
+        let samples = (self.surface == SurfaceArg::Vase).then(|| vase::maps(VASE_WIDTH)).transpose()?;
+        let own_relief = self.height.is_none() && self.normals.is_none() && self.indexed.is_none();
+        let mut materials: Option<MaterialMap> = self.materials.as_deref().map(inputs::materials).transpose()?;
+        if own_relief && materials.is_none() {
+            materials = samples.as_ref().map(|s| s.materials.clone());
+        }
+        let (mesh, source) = self.load_source(method, samples.as_ref(), &progress)?;
+        let repeat = self.onto.repeat(&self.surface);
+        let color = match (&self.color, &samples) {
+            (Some(path), _) => Some(inputs::picture(path)?),
+            (None, Some(samples)) => Some(samples.color.clone()),
+            (None, None) => None,
+        };
+        let base_color = color.map(|picture| (inputs::base_color(&picture), repeat));
+        let (detail, quantized) = self.finish(method, &mesh, source, materials, repeat, &progress)?;
+        let default_materials = if samples.is_some() { DefaultMaterials::Vase } else { DefaultMaterials::Plain };
+        Ok(Relief { mesh, detail, base_color, default_materials, quantized })
+    }
+
+    fn load_source(&self, method: Method, samples: Option<&vase::VaseMaps>, progress: &Bars) -> Result<(Mesh, Source)> {
+        let aspect = |(w, h): (u32, u32)| w as f32 / h as f32;
+        if let Some(path) = &self.height {
+            let map = crate::commands::normal::read_height(&self.heights, path)?;
+            let mesh = self.surface.load(aspect(map.heights().size()))?;
+            let options = self.onto.options(&self.surface, map.heights().size())?;
+            let (filter, edges) = (self.heights.filter(), self.heights.edges());
+            return Ok((mesh.clone(), bent(deflect_heights(&mesh, &map, filter, edges, &options, progress)?)));
+        }
+        if let Some(path) = &self.normals {
+            if SpaceKind::from(self.space) == SpaceKind::Object {
+                let image = inputs::normals::<Object>(path, self.convention.into())?;
+                let mesh = self.surface.load(aspect(image.normals.size()))?;
+                return Ok((mesh, Source::Object { normals: image.normals, covered: image.covered }));
+            }
+            let image = inputs::normals::<Tangent>(path, self.convention.into())?;
+            let mesh = self.surface.load(aspect(image.normals.size()))?.with_tangents();
+            let mesh = mesh.with_context(|| self.surface.stem())?;
+            if method == Method::Exact {
+                return Ok((mesh, Source::Tangent(image.normals)));
+            }
+            let options = self.onto.options(&self.surface, image.normals.size())?;
+            let deflected = deflect_normals(&mesh, &image.normals, &options, progress)?;
+            return Ok((mesh, bent(deflected)));
+        }
+        if let Some(path) = &self.indexed {
+            let source = inputs::open(path)?;
+            let import = ImportAs { space: None, convention: None };
+            let map = inputs::indexed(&source, &import)?.map;
+            return Ok((self.surface.load(aspect(map.size()))?, Source::Indexed(map)));
+        }
+        if let Some(samples) = samples {
+            let mesh = self.surface.load(1.0)?;
+            let options = self.onto.options(&self.surface, samples.height.heights().size())?;
+            let (filter, edges) = (self.heights.filter(), rilievo::Edges::Wrap);
+            let deflected = deflect_heights(&mesh, &samples.height, filter, edges, &options, progress)?;
+            return Ok((mesh, bent(deflected)));
+        }
+        Ok((self.surface.load(1.0)?, Source::Nothing))
+    }
+
+    fn finish(
+        &self,
+        method: Method,
+        mesh: &Mesh,
+        source: Source,
+        materials: Option<MaterialMap>,
+        repeat: [f32; 2],
+        progress: &Bars,
+    ) -> Result<(OwnedDetail, Option<QuantizedReport>)> {
+        if materials.is_some() && matches!(source, Source::Nothing | Source::Indexed(_)) {
+            return Err(usage("--materials goes with --height or --normals; an indexed map has its own materials"));
+        }
+        match source {
+            Source::Nothing if method == Method::Table => {
+                Err(usage("the table method needs a map: give --height, --normals or --indexed, or use --method exact"))
+            }
+            Source::Nothing => Ok((OwnedDetail::Smooth, None)),
+            Source::Indexed(AnyIndexed::Object(map)) => Ok((OwnedDetail::Indexed(Box::new(map)), None)),
+            Source::Indexed(AnyIndexed::Tangent(map)) => {
+                let flat = mesh.clone().with_tangents()?.constant_frame();
+                let frame = flat.ok_or_else(|| {
+                    usage(
+                        "a tangent-space index map can only lie on a flat surface; make an object-space map for this \
+                         mesh with `rilievo normal --from normal --onto MESH` and quantise that",
+                    )
+                })?;
+                Ok((OwnedDetail::Indexed(Box::new(map.map_normals(|n| frame.to_object(n)))), None))
+            }
+            Source::Tangent(normals) => {
+                let materials = fitted(materials, normals.size(), "normal map")?;
+                let normals = MipChain::build(normals, Normal::mean);
+                Ok((OwnedDetail::Tangent { normals, repeat, materials: materials.map(levels) }, None))
+            }
+            Source::Object { normals, covered } if method == Method::Table => {
+                let materials = fitted(materials, normals.size(), "object-space map")?;
+                let options = Options {
+                    entries: self.entries,
+                    effort: Effort::from(self.effort),
+                    materials: materials.as_ref(),
+                    covered: covered.as_ref(),
+                    mip_levels: true,
+                };
+                let started = Instant::now();
+                let quantized = quantize::quantize(&normals, &options, progress)?;
+                let seconds = started.elapsed().as_secs_f64();
+                let entries = quantized.map.table().len();
+                let rms = quantized.error.rms_rad.to_degrees();
+                remark(format!("{}: {entries} entries, {rms:.3} degrees RMS", self.surface.stem()));
+                let report = QuantizedReport { entries, error: quantized.error, seconds };
+                Ok((OwnedDetail::Indexed(Box::new(quantized.map)), Some(report)))
+            }
+            Source::Object { normals, .. } => {
+                let materials = fitted(materials, normals.size(), "object-space map")?;
+                let normals = MipChain::build(normals, Normal::mean);
+                Ok((OwnedDetail::Object { normals, materials: materials.map(levels) }, None))
+            }
+        }
+    }
+}
+
+fn bent(deflected: Deflected) -> Source {
+    remark_overlaps(&deflected);
+    Source::Object { normals: deflected.normals, covered: Some(deflected.covered) }
+}
+
+/// Tells of texels that belong to several triangles.
+pub(crate) fn remark_overlaps(deflected: &Deflected) {
+    if deflected.overlaps > 0 {
+        let message = format!(
+            "{} texels belong to several triangles (mirrored or overlapping UVs); an object-space map can only serve one",
+            deflected.overlaps
+        );
+        exit::warn("texture coordinates", &message);
+    }
+}
+
+/// A material map of the size of the map it goes with.
+fn fitted(materials: Option<MaterialMap>, size: (u32, u32), what: &str) -> Result<Option<MaterialMap>> {
+    let Some(map) = materials else { return Ok(None) };
+    if map.size() == size {
+        return Ok(Some(map));
+    }
+    let ((w, h), (mw, mh)) = (size, map.size());
+    Err(usage(format!(
+        "the material map is {mw} x {mh}, but the {what} is {w} x {h}; give both the same size (see --map-size)"
+    )))
+}
+
+fn levels(materials: MaterialMap) -> MipChain<u8> {
+    MipChain::build(materials, mip::majority)
+}

@@ -1,0 +1,10 @@
+//! The real program, run as a user runs it: files in a fresh folder, exit codes, stdout, stderr.
+
+mod compare;
+mod hostile;
+mod normal;
+mod quantize;
+mod relight;
+mod render;
+mod runner;
+mod usage;

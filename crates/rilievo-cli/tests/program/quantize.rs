@@ -1,0 +1,66 @@
+use crate::runner::Room;
+
+#[test]
+fn reports_what_scripts_rely_on() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let said = room.run("quantize n.png -n 64 --json").ok().json();
+    for key in ["entries", "rms_deg", "mean_deg", "p99_deg", "max_deg", "bound_rms_deg", "bytes", "seconds"] {
+        assert!(said[key].is_number(), "{key} in {said}");
+    }
+    assert_eq!(said["entries"], 64);
+    assert_eq!(said["bytes"].as_u64().unwrap(), room.read("n_64.png").len() as u64);
+    // What the report says is what the file holds.
+    let seen = room.run("compare n.png n_64.png --as normals --json").ok().json();
+    let (a, b) = (said["rms_deg"].as_f64().unwrap(), seen["rms_deg"].as_f64().unwrap());
+    assert!((a - b).abs() < 1e-4 && a > 0.0, "{a} {b}");
+}
+
+#[test]
+fn more_entries_are_closer_and_files_are_the_same_for_any_thread_count() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let rms = |args: &str| room.run(&format!("quantize n.png --json {args}")).ok().json()["rms_deg"].as_f64().unwrap();
+    let coarse = rms("-n 8 -o a.png");
+    let fine = rms("-n 200 -o b.ktx2 --threads 1");
+    assert!(coarse > 2.0 * fine, "{coarse} {fine}");
+    rms("-n 200 -o c.ktx2 --threads 2");
+    assert_eq!(room.read("b.ktx2"), room.read("c.ktx2"));
+}
+
+#[test]
+fn few_distinct_normals_give_few_entries_and_say_so() {
+    let room = Room::new();
+    room.bump("flat.png");
+    room.run("normal flat.png --depth 0 -o n.png").ok();
+    let said = room.run("quantize n.png -n 256 --json").ok();
+    assert_eq!(said.json()["entries"], 1);
+    assert!(said.stderr.contains("distinct"), "{}", said.stderr);
+}
+
+#[test]
+fn materials_stay_apart() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let materials = rilievo::Grid::from_fn(64, 48, |x, y| u8::from((x / 5 + y / 7) % 2 == 0) * 3).unwrap();
+    room.write("m.png", &rilievo_io::encode_gray_png8(&materials).unwrap());
+    room.run("quantize n.png --materials m.png -n 32 -o q.png").ok();
+    let source = rilievo_io::Source::open(&room.path("q.png"), &Default::default()).unwrap();
+    let file = rilievo_io::decode_indexed(&source, &Default::default(), &Default::default()).unwrap();
+    let rilievo_io::AnyIndexed::Tangent(map) = file.map else { panic!("tangent space went in") };
+    assert_eq!(map.expand_materials(), materials);
+    let small = rilievo::Grid::filled(3, 3, 0u8).unwrap();
+    room.write("small.png", &rilievo_io::encode_gray_png8(&small).unwrap());
+    room.run("quantize n.png --materials small.png").fails(4, &["3 × 3", "64 × 48"]);
+}
+
+#[test]
+fn impossible_outputs_are_refused_before_work() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    room.run("quantize n.png -n 257 -o q.png").fails(2, &["256", "ktx2"]);
+    room.run("quantize n.png -n 16 -o q.jpg").fails(2, &[".ktx2"]);
+    room.run("quantize n.png -n 1").fails(2, &["65536"]);
+    room.run("quantize n.png -n 16 -o nowhere/q.png").fails(3, &["nowhere"]);
+    assert_eq!(room.files(), ["n.png"]);
+}
