@@ -2,7 +2,7 @@
 //!
 //! Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild 2020, "FLIP: A Difference Evaluator for
 //! Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), with all constants as printed there.
-//! The filters are applied separably, as the authors' note "Separable Filters in FLIP" shows they may be.
+//! The filters are applied separably, as `separatedConvolutions.pdf` in the authors' repository shows they may be.
 
 mod color;
 mod filter;
