@@ -183,6 +183,12 @@ mod tests {
     }
 
     #[test]
+    fn negative_indices_count_from_the_last_line_read() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 1 1 0\nf -2 -3 -1\nf 3 2 4";
+        assert_eq!(load(text).unwrap().mesh.triangles(), [[0, 1, 2], [2, 1, 3], [2, 1, 3]]);
+    }
+
+    #[test]
     fn some_corners_without_coordinates_are_reported() {
         let file = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nf 1/1 2 3//\n").unwrap();
         assert_eq!(file.mesh.uvs(), [Vec2::splat(0.5), Vec2::ZERO, Vec2::ZERO]);

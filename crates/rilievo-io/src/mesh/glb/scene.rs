@@ -167,3 +167,119 @@ fn cofactors(m: DMat3) -> DMat3 {
     let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
+
+#[cfg(test)]
+mod tests {
+    use rilievo::surface::Mesh;
+
+    use super::*;
+    use crate::{Error, Limits, MeshFile, Source, decode_mesh};
+
+    /// A GLB of four corners of a square with normals and coordinates in u16, around the given JSON members.
+    fn glb(members: &str) -> Vec<u8> {
+        let mut bin = Vec::new();
+        for (x, y) in [(0.0f32, 0.0f32), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            bin.extend([x, y, 0.0, 0.0, 0.0, 1.0].into_iter().flat_map(f32::to_le_bytes));
+            bin.extend([x, y].into_iter().flat_map(|v| ((v * 65535.0) as u16).to_le_bytes()));
+        }
+        bin.extend([0u8, 1, 2, 3, 1, 0, 0, 0]);
+        bin.extend([2.0f32, 2.0, 0.0].into_iter().flat_map(f32::to_le_bytes));
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{length}}}],"bufferViews":[
+            {{"buffer":0,"byteLength":112,"byteStride":28}},{{"buffer":0,"byteOffset":112,"byteLength":4}},
+            {{"buffer":0,"byteOffset":115,"byteLength":1}},{{"buffer":0,"byteOffset":120,"byteLength":12}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":4}},
+            {{"bufferView":0,"byteOffset":12,"componentType":5126,"type":"VEC3","count":4}},
+            {{"bufferView":0,"byteOffset":24,"componentType":5123,"normalized":true,"type":"VEC2","count":4}},
+            {{"bufferView":1,"componentType":5121,"type":"SCALAR","count":4}},
+            {{"bufferView":0,"componentType":5126,"type":"VEC3","count":4,"sparse":{{"count":1,
+              "indices":{{"bufferView":2,"componentType":5121}},"values":{{"bufferView":3}}}}}}],{members}}}"#,
+            length = bin.len()
+        );
+        let json = format!("{json:w$}", w = json.len().next_multiple_of(4));
+        let mut out = b"glTF\x02\0\0\0".to_vec();
+        out.extend((28 + json.len() as u32 + bin.len() as u32).to_le_bytes());
+        for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &bin)] {
+            out.extend((chunk.len() as u32).to_le_bytes());
+            out.extend(kind);
+            out.extend(chunk);
+        }
+        out
+    }
+
+    fn load(members: &str) -> Result<MeshFile> {
+        decode_mesh(&Source::from_bytes("a.glb", glb(members)), &Limits::default())
+    }
+
+    fn square(mode: u32, nodes: &str) -> Mesh {
+        load(&format!(
+            r#""meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}},"indices":3,
+            "mode":{mode}}}]}}],{nodes}"#
+        ))
+        .unwrap()
+        .mesh
+    }
+
+    #[test]
+    fn modes_keep_their_winding() {
+        let nodes = r#""nodes":[{"mesh":0}]"#;
+        assert_eq!(square(4, nodes).triangles(), [[0, 1, 2]]);
+        assert_eq!(square(5, nodes).triangles(), [[0, 1, 2], [1, 3, 2]]);
+        assert_eq!(square(6, nodes).triangles(), [[1, 2, 0], [2, 3, 0]]);
+        assert_eq!(square(5, nodes).uvs()[3], Vec2::ONE);
+    }
+
+    #[test]
+    fn transforms_chain_and_mirrors_keep_the_outside() {
+        // Scaled by 2 along z and mirrored in x, then turned by 90 degrees about y, then moved.
+        let mesh = square(
+            5,
+            r#""scenes":[{"nodes":[1]}],"nodes":[{"mesh":0,"scale":[-1,1,2]},
+            {"children":[0],"rotation":[0,0.70710678,0,0.70710678],"translation":[0,0,5]}]"#,
+        );
+        let at = |x: f32, y: f32| Vec3::new(0.0, y, 5.0 + x);
+        for (p, (x, y)) in mesh.positions().iter().zip([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)]) {
+            assert!(p.distance(at(x, y)) < 1e-6, "{p}");
+        }
+        assert_eq!(mesh.triangles(), [[0, 2, 1], [1, 2, 3]]);
+        for t in mesh.triangles() {
+            let [a, b, c] = t.map(|i| mesh.positions()[i as usize]);
+            assert!((b - a).cross(c - a).dot(mesh.normals()[t[0] as usize]) > 0.0);
+        }
+        assert!(mesh.normals().iter().all(|n| n.distance(Vec3::X) < 1e-6));
+    }
+
+    #[test]
+    fn uneven_scale_turns_normals_by_the_inverse_transpose() {
+        // Turned by 45 degrees about x, then flattened to half along y: the plane y = −z becomes y = −z/2.
+        let mesh = square(
+            4,
+            r#""nodes":[{"mesh":0,"rotation":[0.38268343,0,0,0.92387953]},{"children":[0],"scale":[1,0.5,1]}]"#,
+        );
+        let [a, b, c] = [0, 1, 2].map(|i| mesh.positions()[i]);
+        let face = (b - a).cross(c - a).normalize();
+        assert!(mesh.normals()[0].distance(face) < 1e-6, "{} {face}", mesh.normals()[0]);
+    }
+
+    #[test]
+    fn sparse_values_replace() {
+        let mesh = load(r#""meshes":[{"primitives":[{"attributes":{"POSITION":4},"mode":5}]}]"#).unwrap().mesh;
+        assert_eq!(mesh.positions()[3], Vec3::new(2.0, 2.0, 0.0));
+        assert_eq!(mesh.positions()[1], Vec3::X);
+    }
+
+    #[test]
+    fn node_graphs_that_are_no_forest_are_errors() {
+        let mesh = r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]"#;
+        for nodes in [
+            r#""scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0],"mesh":0}]"#,
+            r#""scenes":[{"nodes":[0,1]}],"nodes":[{"children":[1]},{"mesh":0}]"#,
+            r#""scenes":[{"nodes":[0]}],"nodes":[{"children":[0],"mesh":0}]"#,
+            r#""scenes":[{"nodes":[7]}],"nodes":[{"mesh":0}]"#,
+            r#""scene":3,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]"#,
+            r#""nodes":[{"mesh":1}]"#,
+        ] {
+            assert!(matches!(load(&format!("{mesh},{nodes}")), Err(Error::Format { .. })), "{nodes}");
+        }
+    }
+}
