@@ -1,5 +1,7 @@
 //! Damaged, odd and real mesh files: nothing panics, nothing is swallowed, and what loads is sound.
 
+#![allow(clippy::unwrap_used, reason = "tests, and their helpers")]
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -64,8 +66,9 @@ fn malformed_files_do_what_the_list_says() {
         ("two_vertex_face.obj", Some(18)),
         ("latin1_name.obj", Some(18)),
         ("ngon_concave.obj", Some(3)),
-        // Its indices are good, but its only face has three corners in a line, and a mesh without an area is none.
+        // These parse, but their only face has three corners in a line, and a mesh without an area is none.
         ("index_negative_ok.obj", None),
+        ("no_final_newline_continuation.obj", None),
     ]);
     let mut seen = 0;
     for path in mesh_files(&folder) {
@@ -95,7 +98,9 @@ fn malformed_files_say_where() {
     for name in ["nan_vertex", "inf_vertex", "index_out_of_range", "index_zero", "index_negative_bad", "index_huge"] {
         assert!(message(&format!("{name}.obj")).contains("line "), "{name}");
     }
-    assert!(message("index_negative_ok.obj").contains("with an area"));
+    for name in ["index_negative_ok.obj", "no_final_newline_continuation.obj"] {
+        assert!(message(name).contains("with an area"), "{name}");
+    }
     assert!(message("uri_missing.gltf").contains(".bin"));
     assert!(message("node_cycle.glb").contains("node"));
     let warnings = |name: &str| open(&folder.join(name)).unwrap().warnings.join(" ");

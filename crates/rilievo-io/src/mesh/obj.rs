@@ -189,6 +189,12 @@ mod tests {
     }
 
     #[test]
+    fn lines_continue_after_a_backslash_and_the_last_needs_no_end() {
+        let text = "v 0 0 0\nv 1 \\\n0 0\r\nv\t0 1 0 # a comment \\\nf 1 \\\r\n2 \\\n3";
+        assert_eq!(load(text).unwrap().mesh.triangles(), [[0, 1, 2]]);
+    }
+
+    #[test]
     fn some_corners_without_coordinates_are_reported() {
         let file = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nf 1/1 2 3//\n").unwrap();
         assert_eq!(file.mesh.uvs(), [Vec2::splat(0.5), Vec2::ZERO, Vec2::ZERO]);

@@ -74,7 +74,12 @@ fn read_uri(uri: &str, k: usize, folder: Option<&Path>, left: u64, assembly: &As
         return Err(refuse("a buffer in a file of its own,", "name the file by its path, or export one GLB"));
     };
     let limits = Limits { max_file_bytes: left, ..*assembly.limits };
-    Ok(Source::open(&folder.join(path), &limits)?.into_bytes())
+    match Source::open(&folder.join(path), &limits) {
+        Ok(source) => Ok(source.into_bytes()),
+        // Which file asks for it, too.
+        Err(Error::Io { source, .. }) => Err(Error::io(&format!("{}: buffer {k}, {shown:?}", assembly.name), source)),
+        Err(other) => Err(other),
+    }
 }
 
 /// RFC 3986, section 2.1.
@@ -174,7 +179,7 @@ mod tests {
             );
         }
         let e = read("missing.bin").unwrap_err();
-        assert!(matches!(&e, Error::Io { name, .. } if name.ends_with("missing.bin")), "{e}");
+        assert!(matches!(&e, Error::Io { name, .. } if name.contains("a.gltf") && name.contains("missing.bin")), "{e}");
         assert!(matches!(read_uri("in side.bin", 0, Some(folder.path()), 3, &assembly), Err(Error::Limits { .. })));
         assert!(matches!(read_uri("in side.bin", 0, None, 100, &assembly), Err(Error::Unsupported { .. })));
     }
