@@ -50,11 +50,6 @@ impl Source {
         &self.bytes
     }
 
-    /// The contents, without the name.
-    pub(crate) fn into_bytes(self) -> Vec<u8> {
-        self.bytes
-    }
-
     fn read(name: &str, from: impl Read, limits: &Limits) -> Result<Self> {
         let mut bytes = Vec::new();
         let most = limits.max_file_bytes.saturating_add(1);
