@@ -3,7 +3,7 @@
 use std::io;
 
 /// The crate's result.
-pub type Result<T> = std::result::Result<T, Error>;
+pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// Why a file could not be read or written. Each message names the file, the place in it and what to do.
 #[derive(Debug, thiserror::Error)]
