@@ -4,12 +4,28 @@
 //! anything is allocated, and damage is an [`Error`] that names the file, the place in it and what to do.
 #![forbid(unsafe_code)]
 
+mod chunks;
 mod error;
+pub mod image;
+pub mod indexed;
 mod limits;
-mod mesh;
+pub mod mesh;
+mod probe;
 mod source;
+mod write;
 
 pub use error::{Error, Result};
+pub use image::{
+    Depth, HeightImage, NormalImage, decode_height, decode_materials, decode_normals, decode_picture, encode_apng,
+    encode_gray_png8, encode_gray_png16, encode_normals_exr, encode_normals_png8, encode_normals_png16,
+    encode_picture_png,
+};
+pub use indexed::{
+    AnyIndexed, AnyTable, ImportAs, IndexedFile, PalettePng, PaletteTable, SpaceKind, decode_indexed,
+    encode_indexed_png, encode_ktx2, relight_in_place,
+};
 pub use limits::Limits;
 pub use mesh::{MeshFile, decode_mesh};
+pub use probe::{is_indexed, is_palette_png, looks_like_normals};
 pub use source::Source;
+pub use write::write_atomic;

@@ -1,0 +1,164 @@
+//! Normal maps in.
+
+use rilievo::normal::{decode_u8, decode_u16};
+use rilievo::{Convention, Grid, Normal, NormalMap, Space, Tangent};
+
+use super::decode_raster;
+use super::raster::{Depth, Raster, Samples};
+use crate::error::{Error, Result};
+use crate::limits::Limits;
+use crate::source::Source;
+
+/// A normal map as it was stored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalImage<S> {
+    /// Unit normals, +Y up; +Z where not covered.
+    pub normals: NormalMap<S>,
+    /// Where alpha is above zero; `None` if that is everywhere.
+    pub covered: Option<Grid<bool>>,
+    /// How the samples were stored.
+    pub depth: Depth,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Decodes a colour picture as normals and renormalises them.
+///
+/// Integers stand for `c / max · 2 − 1`, floats for themselves, so x, y, z lie in −1 … 1. `convention` is what the
+/// file has; the result is +Y up.
+///
+/// # Errors
+/// [`Error::Format`] for a damaged file, a gray one, or texels without direction (zero or not finite) where alpha is
+/// not zero; [`Error::Limits`]; [`Error::Unsupported`].
+pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits: &Limits) -> Result<NormalImage<S>> {
+    let raster = decode_raster(source, limits)?;
+    if !raster.has_color() {
+        let reason = "a gray picture holds heights, not normals; make a normal map of it first";
+        return Err(Error::format(source.name(), "header", reason));
+    }
+    let covered = raster.covered();
+    let inside = covered.as_ref();
+    let mut lengths = Lengths::default();
+    let normals = match raster.samples() {
+        Samples::U8(v) => {
+            measure(&raster, v, inside, &mut lengths, |c| f32::from(c) / 127.5 - 1.0);
+            convert(&raster, v, inside, |c| convention.apply(decode_u8(c)))
+        }
+        Samples::U16(v) => {
+            measure(&raster, v, inside, &mut lengths, |c| f32::from(c) / 32_767.5 - 1.0);
+            convert(&raster, v, inside, |c| convention.apply(decode_u16(c)))
+        }
+        Samples::F32(v) => {
+            check_directions::<S>(source.name(), &raster, v, inside)?;
+            measure(&raster, v, inside, &mut lengths, |c| c);
+            convert(&raster, v, inside, |c| convention.apply(Normal::new_or(c.into(), Normal::Z)))
+        }
+    };
+    let warnings = lengths.warnings::<S>(&raster);
+    Ok(NormalImage { normals: raster.grid(normals), covered, depth: raster.depth(), warnings })
+}
+
+/// One normal per texel, rows in parallel; +Z where not covered.
+fn convert<S: Space, T: Copy + Sync>(
+    raster: &Raster,
+    samples: &[T],
+    covered: Option<&Grid<bool>>,
+    decode: impl Fn([T; 3]) -> Normal<S> + Sync + Send,
+) -> Vec<Normal<S>> {
+    let (width, channels) = (raster.size().0 as usize, raster.channels());
+    let mut normals = vec![Normal::Z; samples.len() / channels];
+    rilievo::par::for_each_row(&mut normals, width, |y, row| {
+        let texels = samples[y * width * channels..].chunks_exact(channels);
+        for (x, (n, t)) in row.iter_mut().zip(texels).enumerate() {
+            if covered.is_none_or(|c| c.texels()[y * width + x]) {
+                *n = decode([t[0], t[1], t[2]]);
+            }
+        }
+    });
+    normals
+}
+
+/// Fails if a covered texel has no direction.
+fn check_directions<S: Space>(
+    name: &str,
+    raster: &Raster,
+    samples: &[f32],
+    covered: Option<&Grid<bool>>,
+) -> Result<()> {
+    let texels = samples.chunks_exact(raster.channels()).enumerate();
+    let mut bad = texels.filter(|(i, t)| {
+        covered.is_none_or(|c| c.texels()[*i]) && Normal::<S>::new([t[0], t[1], t[2]].into()).is_none()
+    });
+    let Some((first, _)) = bad.next() else { return Ok(()) };
+    let count = 1 + bad.count();
+    let reason =
+        format!("{count} texels are zero or not finite, the first one here; fill them, or set their alpha to 0");
+    Err(Error::format(name, raster.place(first), reason))
+}
+
+/// What the lengths and signs of the stored vectors say about the file.
+#[derive(Debug, Default)]
+struct Lengths {
+    /// Texels more than 10 % off unit length: count and first. Rounding to 8 bits gives below 1 %, JPEG a few.
+    off: (usize, usize),
+    /// Texels that point into the surface: count and first.
+    backward: (usize, usize),
+    any_negative: bool,
+    any_different: bool,
+}
+
+fn measure<T: Copy>(
+    raster: &Raster,
+    samples: &[T],
+    covered: Option<&Grid<bool>>,
+    lengths: &mut Lengths,
+    component: impl Fn(T) -> f32,
+) {
+    let note = |(count, first): &mut (usize, usize), i| {
+        *first = if *count == 0 { i } else { *first };
+        *count += 1;
+    };
+    for (i, t) in samples.chunks_exact(raster.channels()).enumerate() {
+        if covered.is_some_and(|c| !c.texels()[i]) {
+            continue;
+        }
+        let [x, y, z] = [t[0], t[1], t[2]].map(&component);
+        let squared = x * x + y * y + z * z;
+        if !(0.81..=1.21).contains(&squared) {
+            note(&mut lengths.off, i);
+        }
+        if z < 0.0 {
+            note(&mut lengths.backward, i);
+        }
+        lengths.any_negative |= x < 0.0 || y < 0.0 || z < 0.0;
+        lengths.any_different |= x != y || y != z;
+    }
+}
+
+impl Lengths {
+    fn warnings<S: Space>(&self, raster: &Raster) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let (off, first) = self.off;
+        if off > 0 {
+            let place = raster.place(first);
+            warnings.push(format!(
+                "{off} texels are more than 10 % off unit length, the first one {place}; they were renormalised: \
+                 is this a normal map?"
+            ));
+        }
+        let (backward, first) = self.backward;
+        if backward > 0 && S::NAME == Tangent::NAME {
+            let place = raster.place(first);
+            warnings.push(format!(
+                "{backward} texels point into the surface, the first one {place}; is this an object-space map?"
+            ));
+        }
+        if !self.any_different {
+            warnings.push("red, green and blue are equal everywhere: this looks like a height map".to_owned());
+        }
+        if raster.depth() == Depth::F32 && !self.any_negative && self.any_different && off > 0 {
+            warnings.push("no component is negative: floats are taken as −1 … 1, these look like 0 … 1".to_owned());
+        }
+        warnings
+    }
+}
