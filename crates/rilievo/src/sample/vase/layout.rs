@@ -43,7 +43,7 @@ pub(super) struct Frieze {
     pub(super) repeats: u32,
     /// Every second cell is red.
     pub(super) red_turns: bool,
-    /// The cells are drawn about half a cell's turn, so that a figure and not a gap faces +Z.
+    /// Length from its lower to its upper edge.
     pub(super) height: f32,
 }
 
@@ -91,12 +91,13 @@ impl Layout {
         l.strokes(frieze, Clay, 5, ornament::palmette_lotus_chain);
         l.stripe(LINE, Glaze);
         l.stripe(0.010, Clay);
-        l.until(p.end(4) - 0.012, Glaze);
-        l.ridge(p.end(4) + 0.001, 0.017, 0.016);
-        l.stripe(0.026, Red);
+        l.stripe(0.008, Glaze);
+        l.until(p.end(4), Red);
+        // On the neck, not over the crease below it, where the normals of two surfaces meet.
+        l.ridge(p.end(4) - 0.015, 0.015, 0.012);
         // Shoulder: tongues, then the meander between double lines.
         l.stripe(0.008, Glaze);
-        l.strokes(0.125, Clay, 40, |w| ornament::tongue(w));
+        l.strokes(0.125, Clay, 40, ornament::tongue);
         l.last_frieze(|f| f.red_turns = true);
         l.double_line();
         l.meander(0.104, 7);
@@ -121,12 +122,11 @@ impl Layout {
         l.stripe(LINE, Glaze);
         l.stripe(0.010, Clay);
         // Stem and foot.
-        l.until(p.end(6) - 0.012, Glaze);
-        l.ridge(p.end(6) - 0.006, 0.018, 0.014);
-        l.stripe(0.024, Red);
+        l.stripe(0.010, Glaze);
+        l.until(p.end(6), Red);
+        l.ridge(p.end(6) - 0.014, 0.014, 0.011);
         l.until(p.end(8) - 0.020, Glaze);
         l.until(p.length() + 1.0, Clay);
-        // The handles' strip is found by the caller; see `strip`.
         l
     }
 
@@ -184,7 +184,7 @@ impl Layout {
 
     /// A frieze of `height` with `repeats` cells; `draw` gets the cell's width in heights, at the frieze's middle.
     fn strokes(&mut self, height: f32, ground: Ground, repeats: u32, draw: impl Fn(f32) -> Ornament) {
-        let radius = Profile::get().radius(self.cursor + 0.5 * height);
+        let radius = Profile::get().at(self.cursor + 0.5 * height).radius;
         let width = std::f32::consts::TAU * radius / (repeats as f32 * height);
         let ornament = draw(width);
         let reach = self.reach / height;
@@ -227,12 +227,12 @@ impl Frieze {
     /// At `u` around and `up` above the frieze's lower edge.
     pub(super) fn draw(&self, u: f32, up: f32, reach: f32) -> Drawn {
         // Half a cell is added so that the middle of a cell faces +Z (u = 1/2) for any number of cells.
-        let cell = u * self.repeats as f32 + if self.repeats % 2 == 0 { 0.5 } else { 0.0 };
+        let cell = u * self.repeats as f32 + if self.repeats.is_multiple_of(2) { 0.5 } else { 0.0 };
         let x = cell - cell.floor();
         match &self.pattern {
             Pattern::Strokes { figure, engraving } => {
                 let p = [(x - 0.5) * figure.width(), up / self.height];
-                let red = self.red_turns && (cell.floor() as u32) % 2 == 1;
+                let red = self.red_turns && !(cell.floor() as u32).is_multiple_of(2);
                 Drawn { figure: figure.inside(p) * self.height, engraving: engraving.inside(p) * self.height, red }
             }
             Pattern::Meander => {

@@ -1,6 +1,6 @@
 //! The maps of the vase, texel by texel.
 
-use super::layout::{Ground, Layout, circumference, map_length};
+use super::layout::{Ground, Layout, Zone, circumference, map_length};
 use super::noise::{brush, mix, smoothstep, solid, surface_noise};
 use super::profile::Profile;
 use super::{CLAY, GLAZE, handle, turn};
@@ -28,8 +28,8 @@ const THIN_SRGB: [u8; 3] = [92, 48, 30];
 const ADDED_RED_SRGB: [u8; 3] = [112, 38, 34];
 
 // Heights in lengths of the vase (which is 2 high), before the map's scale is taken out.
-const LOWEST: f32 = -0.022;
-const HIGHEST: f32 = 0.034;
+const LOWEST: f32 = -0.020;
+const HIGHEST: f32 = 0.026;
 /// Thickness of the glaze: many times the real one, so that it catches the light.
 const PAINT: f32 = 0.0085;
 /// How far figures reserved in the black lie below painted clay.
@@ -88,9 +88,24 @@ struct Painter {
     palette: Palette,
     /// Length of a texel on the vase.
     texel: f32,
+    /// Length of the map's width on the vase.
+    around_length: f32,
     bevel: f32,
     /// Sine and cosine of each column's place around the axis.
     around: Vec<[f32; 2]>,
+}
+
+/// What a whole row of the map has in common.
+struct Ring<'a> {
+    zone: &'a Zone,
+    /// Signed distance to the black ground, positive inside.
+    black: f32,
+    /// Amount of added red.
+    red: f32,
+    /// Height of the raised rings.
+    relief: f32,
+    /// Part of the light that reaches it.
+    light: f32,
 }
 
 /// A place on the map.
@@ -137,6 +152,7 @@ impl Painter {
             layout: Layout::new(REACH),
             palette: Palette { clay, red_clay, glaze, thin, added_red },
             texel,
+            around_length: circumference(),
             bevel: BEVEL.max(texel),
             around: (0..width).map(|x| turn::sin_cos((f64::from(x) + 0.5) / f64::from(width)).into()).collect(),
         }
@@ -144,13 +160,26 @@ impl Painter {
 
     fn paint_row(&self, s: f32, row: &mut [Texel]) {
         let profile = Profile::get();
-        let (radius, strip) = (profile.radius(s), (s - profile.length()) / handle::STRIP);
+        let (point, strip) = (profile.at(s), (s - profile.length()) / handle::STRIP);
+        // Light does not reach the bottom of the mouth.
+        let depth = smoothstep(profile.end(1) + 0.02, profile.start(1) * 0.6, s);
+        let zone = self.layout.zone(s);
+        let ring = Ring {
+            zone,
+            black: self.layout.black(s),
+            red: if zone.ground == Ground::Red {
+                smoothstep(0.5, 1.5, (s - zone.from).min(zone.to - s) / self.texel)
+            } else {
+                0.0
+            },
+            relief: self.layout.relief(s),
+            light: 1.0 - 0.93 * depth,
+        };
         let width = row.len() as f32;
         for (x, (out, [sin, cos])) in row.iter_mut().zip(&self.around).enumerate() {
             let u = (x as f32 + 0.5) / width;
             *out = if strip < 0.0 {
-                // Along the profile instead of straight down: the grain is no less fine on the flat shoulder.
-                self.body(Place { u, s, solid: [radius * sin, s, radius * cos] })
+                self.body(Place { u, s, solid: [point.radius * sin, point.y, point.radius * cos] }, &ring)
             } else {
                 self.handle(Place { u, s, solid: [u, s, 10.0] }, strip)
             };
@@ -158,14 +187,11 @@ impl Painter {
     }
 
     /// A place on the vase itself.
-    fn body(&self, at: Place) -> Texel {
-        let profile = Profile::get();
-        let mut paint = self.paint(at.u, at.s);
+    fn body(&self, at: Place, ring: &Ring) -> Texel {
+        let mut paint = self.paint(at, ring);
         // A hand drew this: edges waver by half a hair.
         paint.black += 0.0011 * solid(at.solid, 0.025, 2, self.texel, 1);
-        // Light does not reach the bottom of the mouth.
-        let depth = smoothstep(profile.end(1) + 0.02, profile.start(1) * 0.6, at.s);
-        self.finish(at, &paint, self.layout.relief(at.s), 1.0 - 0.93 * depth)
+        self.finish(at, &paint, ring.relief, ring.light)
     }
 
     fn handle(&self, at: Place, strip: f32) -> Texel {
@@ -173,22 +199,18 @@ impl Painter {
         self.finish(at, &paint, 0.016 * (handle::reeds(strip) - 0.8), 1.0)
     }
 
-    fn paint(&self, u: f32, s: f32) -> Paint {
-        let zone = self.layout.zone(s);
-        let black = self.layout.black(s);
-        let edge = (s - zone.from).min(zone.to - s);
-        let red = if zone.ground == Ground::Red { smoothstep(-0.5, 0.5, edge / self.texel - 1.0) } else { 0.0 };
-        let Some(frieze) = &zone.frieze else {
-            return Paint { black, engraving: -REACH, red, carved: false };
+    fn paint(&self, at: Place, ring: &Ring) -> Paint {
+        let Some(frieze) = &ring.zone.frieze else {
+            return Paint { black: ring.black, engraving: -REACH, red: ring.red, carved: false };
         };
-        let drawn = frieze.draw(u, zone.to - s, REACH);
-        if zone.ground == Ground::Clay {
+        let drawn = frieze.draw(at.u, ring.zone.to - at.s, REACH);
+        if ring.zone.ground == Ground::Clay {
             let red = if drawn.red { smoothstep(0.0, self.texel, drawn.figure - 0.002) } else { 0.0 };
             // Lines are cut into the figure only.
             let engraving = drawn.engraving.min(drawn.figure - 0.5 * self.texel);
-            Paint { black: black.max(drawn.figure), engraving, red, carved: false }
+            Paint { black: ring.black.max(drawn.figure), engraving, red, carved: false }
         } else {
-            Paint { black: black.min(-drawn.figure), engraving: drawn.engraving, red: 0.0, carved: true }
+            Paint { black: ring.black.min(-drawn.figure), engraving: drawn.engraving, red: 0.0, carved: true }
         }
     }
 
@@ -206,7 +228,7 @@ impl Painter {
         let groove = smoothstep(-0.003 - self.texel, 0.004, paint.engraving);
         let bare = coat < 1.0 || groove > 0.0;
         let marks = Marks {
-            streaks: brush(at.u, at.s / circumference(), 5, 26.0, 4, 31),
+            streaks: if coat > 0.0 { brush(at.u, at.s / self.around_length, 5, 26.0, 4, 31) } else { 0.0 },
             grain: if bare { of_size(0.0085, 3, 3) } else { 0.0 },
             pits: if bare { smoothstep(0.26, 0.52, of_size(0.014, 2, 4)) } else { 0.0 },
             groove,
@@ -243,5 +265,89 @@ impl Painter {
         let glaze = blend(p.glaze, p.thin, thin.clamp(0.0, 0.7));
         let glaze = blend(glaze, p.added_red * (1.0 + 0.3 * marks.streaks), red * 0.9);
         blend(clay, glaze, cover)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn u_wraps_without_a_seam() {
+        let maps = maps(512).unwrap();
+        let heights = maps.height.heights();
+        let step = |a: u32, b: u32| {
+            let rows = heights.rows().map(|r| f64::from((r[a as usize] - r[b as usize]).abs()));
+            rows.sum::<f64>() / f64::from(heights.height())
+        };
+        let usual = (0..511).map(|x| step(x, x + 1)).fold(0.0, f64::max);
+        let seam = step(511, 0);
+        assert!(seam <= usual, "{seam} across the seam, at most {usual} elsewhere");
+        let changes = |a: u32, b: u32| maps.materials.rows().filter(|r| r[a as usize] != r[b as usize]).count();
+        let most = (0..511).map(|x| changes(x, x + 1)).max().unwrap();
+        assert!(changes(511, 0) <= most);
+    }
+
+    #[test]
+    fn heights_fill_the_range_without_touching_its_ends() {
+        let maps = maps(512).unwrap();
+        let (low, high) =
+            maps.height.heights().texels().iter().fold((1.0f32, 0.0f32), |(l, h), &x| (l.min(x), h.max(x)));
+        assert!(maps.height.heights().texels().iter().all(|h| h.is_finite()));
+        // A height of exactly 0 or 1 would have been cut off.
+        assert!(low > 0.0 && high < 1.0 && high - low > 0.5, "{low} … {high}");
+        assert!(maps.height.depth() > 0.005 && maps.height.depth() < 0.03);
+    }
+
+    #[test]
+    fn both_materials_have_their_share() {
+        let maps = maps(256).unwrap();
+        let count = |m: u8| maps.materials.texels().iter().filter(|&&x| x == m).count() as f32;
+        let all = maps.materials.texels().len() as f32;
+        assert_eq!(count(CLAY) + count(GLAZE), all);
+        let share = count(GLAZE) / all;
+        assert!((0.5..0.75).contains(&share), "{share}");
+    }
+
+    #[test]
+    fn glaze_is_dark_and_lies_above_the_clay() {
+        let maps = maps(512).unwrap();
+        let mut sums = [[0.0f64; 3]; 2];
+        // The main frieze: rows where no raised ring disturbs.
+        for y in 150..210 {
+            for x in 0..512 {
+                let sum = &mut sums[usize::from(maps.materials[(x, y)])];
+                let color = maps.color[(x, y)];
+                assert_eq!(color.a, 255);
+                sum[0] += 1.0;
+                sum[1] += f64::from(maps.height.heights()[(x, y)]);
+                sum[2] += f64::from(color.r);
+            }
+        }
+        let [clay, glaze] = sums.map(|s| [s[1] / s[0], s[2] / s[0]]);
+        assert!(glaze[0] > clay[0] + 0.05 && glaze[1] < 0.4 * clay[1], "{clay:?} {glaze:?}");
+    }
+
+    #[test]
+    fn sizes_scale_and_small_ones_work() {
+        for width in [64, 65, 67, 100] {
+            let maps = maps(width).unwrap();
+            assert_eq!(maps.height.heights().size(), (width, width * 3 / 4));
+            assert_eq!(maps.materials.size(), maps.color.size());
+        }
+        assert!(maps(63).is_err() && maps(0).is_err() && maps(u32::MAX).is_err());
+    }
+
+    #[test]
+    fn maps_are_the_same_every_time() {
+        // FNV-1a over heights and materials, which no libm touches: the same figure on every machine.
+        let sum = |maps: &VaseMaps| {
+            let heights = maps.height.heights().texels().iter().flat_map(|h| h.to_bits().to_le_bytes());
+            let bytes = heights.chain(maps.materials.texels().iter().copied());
+            bytes.fold(0xcbf2_9ce4_8422_2325u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
+        };
+        let first = maps(512).unwrap();
+        assert_eq!(first, maps(512).unwrap());
+        assert_eq!(sum(&first), 0x6aad_63b0_fbe2_5154);
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn palmette(side: u32, spread: f32, droop: f32) -> Ornament {
     for k in 0..=side {
         let outward = k as f32 / side as f32;
         let angle = k as f32 * spread;
-        let reach = 1.0 - droop * outward * outward;
+        let reach = 1.0 - droop * 0.5 * outward * (1.0 + outward);
         // Petals would touch where their round ends are widest; 2.6 instead of 2 leaves the gap between them.
         let round = reach * spread / (2.6 + spread);
         let dir = |angle: f32, r: f32| {
@@ -64,7 +64,7 @@ pub(super) fn palmette(side: u32, spread: f32, droop: f32) -> Ornament {
 /// A lotus flower: two sepals that bend outward, three petals between; base in the origin, height about 1.
 pub(super) fn lotus() -> Ornament {
     let mut o = Ornament::default();
-    o.leaf([[0.03, 0.02], [0.06, 0.42], [0.20, 0.66], [0.50, 0.88]], 0.105);
+    o.leaf([[0.03, 0.02], [0.05, 0.45], [0.16, 0.72], [0.42, 0.92]], 0.105);
     o.leaf([[0.03, 0.28], [0.06, 0.55], [0.12, 0.75], [0.23, 0.98]], 0.062);
     o.figure.line([0.0, 0.02], 0.06, [0.05, 0.05], 0.03);
     o.mirror();
@@ -76,7 +76,7 @@ pub(super) fn lotus() -> Ornament {
 pub(super) fn palmette_lotus_chain(width: f32) -> Ornament {
     let mut o = Ornament::default();
     let half = width / 2.0;
-    o.stamp(&palmette(4, 0.38, 0.50), [0.0, 0.20], 0.76, false);
+    o.stamp(&palmette(4, 0.38, 0.56), [0.0, 0.20], 0.75, false);
     o.stamp(&lotus(), [half, 0.20], 0.70, false);
     // Arcs from bud to bud below, with a bead where they meet.
     let mut arcs = Ornament::default();
@@ -94,7 +94,7 @@ pub(super) fn lyre_frieze(width: f32) -> Ornament {
     let line = 0.0155;
     // Right half of the lyre: a volute that runs out into the tendril around the palmette.
     let centre = [0.165, 0.175];
-    o.figure.spiral(centre, -2.25, -0.25, 0.018, 0.118, 0.012, line);
+    o.figure.spiral(centre, [-2.25, -0.25], [0.018, 0.118], [0.012, line]);
     o.figure.dot(centre, 0.026);
     let foot = [centre[0], centre[1] - 0.118];
     let side = [half * 0.855, 0.50];
@@ -107,8 +107,8 @@ pub(super) fn lyre_frieze(width: f32) -> Ornament {
     o.mirror();
     // Between the volutes: binding, drop and heart.
     o.figure.line([-0.05, 0.235], 0.018, [0.05, 0.235], 0.018);
-    o.figure.line([0.0, 0.17], 0.028, [0.0, 0.07], 0.006);
-    o.stamp(&palmette(6, 0.29, 0.62), [0.0, 0.275], 0.585, false);
+    o.figure.line([0.0, 0.175], 0.026, [0.0, 0.07], 0.006);
+    o.stamp(&palmette(5, 0.315, 0.46), [0.0, 0.288], 0.58, false);
     // Between the lyres: a hanging palmette, a standing one, and a leaf.
     let small = palmette(3, 0.43, 0.32);
     o.stamp(&small, [half, 0.985], 0.265, true);
@@ -123,7 +123,7 @@ pub(super) fn running_spiral(width: f32) -> Ornament {
     let mut o = Ornament::default();
     let half = width / 2.0;
     let centre = [0.0, 0.50];
-    o.figure.spiral(centre, -1.6, -0.25, 0.06, 0.36, 0.05, 0.075);
+    o.figure.spiral(centre, [-1.6, -0.25], [0.06, 0.36], [0.05, 0.075]);
     o.figure.dot(centre, 0.10);
     let start = [0.0, 0.14];
     o.figure.curve([start, [half * 0.9, 0.12], [half * 0.6, 0.88], [width - 0.36 * 0.6, 0.80]], |_| 0.075);

@@ -16,12 +16,12 @@ pub(super) struct Piece {
 /// the height wide, the neck a quarter of the height, the widest place at 3/5 of it.
 pub(super) const PIECES: [Piece; 10] = [
     piece([[0.0, 0.40], [0.12, 0.40], [0.20, 0.45], [0.203, 0.55]], 1, 0.30),
-    piece([[0.203, 0.55], [0.210, 0.72], [0.24, 0.86], [0.312, 0.982]], 1, 0.40),
-    piece([[0.312, 0.982], [0.325, 1.004], [0.362, 1.004], [0.371, 0.975]], 1, 1.0),
-    piece([[0.371, 0.975], [0.376, 0.915], [0.330, 0.882], [0.282, 0.868]], 2, 1.0),
+    piece([[0.203, 0.55], [0.210, 0.72], [0.24, 0.86], [0.320, 0.980]], 1, 0.40),
+    piece([[0.320, 0.980], [0.333, 0.995], [0.356, 0.997], [0.371, 0.980]], 1, 1.0),
+    piece([[0.371, 0.980], [0.377, 0.915], [0.330, 0.882], [0.282, 0.868]], 2, 1.0),
     piece([[0.282, 0.868], [0.250, 0.80], [0.232, 0.68], [0.262, 0.556]], 2, 1.0),
-    piece([[0.262, 0.556], [0.45, 0.525], [0.620, 0.41], [0.628, 0.19]], 4, 1.0),
-    piece([[0.628, 0.19], [0.636, -0.12], [0.425, -0.49], [0.196, -0.872]], 4, 1.0),
+    piece([[0.262, 0.556], [0.45, 0.525], [0.620, 0.41], [0.628, 0.19]], 5, 1.0),
+    piece([[0.628, 0.19], [0.636, -0.12], [0.425, -0.49], [0.196, -0.872]], 6, 1.0),
     piece([[0.196, -0.872], [0.198, -0.897], [0.225, -0.905], [0.265, -0.910]], 1, 1.0),
     piece([[0.265, -0.910], [0.310, -0.918], [0.328, -0.968], [0.306, -1.0]], 2, 1.0),
     piece([[0.306, -1.0], [0.24, -0.978], [0.14, -0.97], [0.0, -0.97]], 1, 0.45),
@@ -103,20 +103,23 @@ impl Profile {
         self.samples[piece][STEPS].s
     }
 
-    /// `n + 1` points that cut a curve into `n` parts, shorter where it bends.
+    /// `n + 1` points that cut a curve into `n` parts, shorter where it bends and where it tapers.
     ///
-    /// Parts are equal in the sum of their share of the length and twice their share of the bend: equal lengths waste
-    /// faces on the nearly straight lower body, equal bends leave it with none.
+    /// Equal lengths would draw the outline's bends as corners;
+    /// and where a face is much narrower below than above, its two triangles shear the texture by as much. So parts are
+    /// equal in the sum of their length, twice their bend (radians) and twice their taper (the radii's logarithm),
+    /// roughly; on the axis, where the taper has no bound, its slope is held.
     pub(super) fn cut(&self, piece: usize, n: u32) -> impl Iterator<Item = Point> + '_ {
         let points = &self.samples[piece];
-        let bend = |w: &[Point]| {
+        let cost = |w: &[Point]| {
             let d = [w[1].normal[0] - w[0].normal[0], w[1].normal[1] - w[0].normal[1]];
-            (d[0] * d[0] + d[1] * d[1]).sqrt()
+            let bend = (d[0] * d[0] + d[1] * d[1]).sqrt();
+            let taper = (w[1].radius - w[0].radius).abs() / w[0].radius.max(w[1].radius).max(0.1);
+            (w[1].s - w[0].s) + 2.0 * bend + 2.0 * taper
         };
-        let (length, bends) = (self.end(piece) - self.start(piece), points.windows(2).map(bend).sum::<f32>());
         let mut sums = vec![0.0f32];
         for w in points.windows(2) {
-            sums.push(sums[sums.len() - 1] + (w[1].s - w[0].s) / length + 2.0 * bend(w) / bends.max(1e-6));
+            sums.push(sums[sums.len() - 1] + cost(w));
         }
         (0..=n).map(move |i| {
             let goal = sums[STEPS] * i as f32 / n as f32;
@@ -126,11 +129,11 @@ impl Profile {
         })
     }
 
-    /// Radius at map length `s`, clamped to the ends.
-    pub(super) fn radius(&self, s: f32) -> f32 {
+    /// The place at map length `s`, clamped to the ends.
+    pub(super) fn at(&self, s: f32) -> Point {
         let last = PIECES.len() - 1;
         let piece = (0..last).find(|&i| s < self.end(i)).unwrap_or(last);
-        self.on_piece(piece, s).radius
+        self.on_piece(piece, s)
     }
 
     fn on_piece(&self, piece: usize, s: f32) -> Point {

@@ -63,19 +63,19 @@ impl Pen {
 
     /// A stroke along a cubic Bézier curve.
     pub(super) fn curve(&mut self, control: [Point; 4], half: impl Fn(f32) -> f32) {
-        self.sweep(14, |t| cubic(control, t), half);
+        self.sweep(24, |t| cubic(control, t), half);
     }
 
-    /// A spiral about `centre` from `from` to `to` (turns, counter-clockwise from +x), its radius running from
-    /// `inner` to `outer` and its half-width from `thin` to `thick`.
-    pub(super) fn spiral(&mut self, centre: Point, from: f32, to: f32, inner: f32, outer: f32, thin: f32, thick: f32) {
-        let n = ((to - from).abs() * 32.0).ceil() as u32;
+    /// A spiral about `centre`, from start to end: `turns` (counter-clockwise from +x), `radius` and `half` width.
+    pub(super) fn spiral(&mut self, centre: Point, turns: [f32; 2], radius: [f32; 2], half: [f32; 2]) {
+        let between = |[from, to]: [f32; 2], t: f32| from + (to - from) * t;
+        let n = ((turns[1] - turns[0]).abs() * 32.0).ceil() as u32;
         let way = |t: f32| {
-            let (sin, cos) = turn::sin_cos(f64::from(from + (to - from) * t));
-            let r = inner + (outer - inner) * t;
+            let (sin, cos) = turn::sin_cos(f64::from(between(turns, t)));
+            let r = between(radius, t);
             [centre[0] + r * cos, centre[1] + r * sin]
         };
-        self.sweep(n, way, |t| thin + (thick - thin) * t);
+        self.sweep(n, way, |t| between(half, t));
     }
 
     /// Adds the strokes of `other`, moved and turned by `place`: a point p goes to `origin + scale · p`, y flipped if
@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn buckets_change_nothing_within_reach() {
         let mut pen = Pen::default();
-        pen.spiral([0.1, 0.5], 0.0, 1.5, 0.02, 0.4, 0.01, 0.03);
+        pen.spiral([0.1, 0.5], [0.0, 1.5], [0.02, 0.4], [0.01, 0.03]);
         pen.curve([[-0.5, 0.0], [0.2, 0.3], [0.0, 0.9], [0.3, 1.0]], |t| 0.04 * t);
         pen.dot([0.55, 0.2], 0.1);
         let motif = Motif::new(&pen, 1.2, 0.1);
