@@ -84,7 +84,7 @@ impl Tree {
             }
         }
         let center = [0, 1, 2].map(|axis| (low[axis] + high[axis]) * 0.5);
-        let (mut moment, mut radius) = ([0.0; 4], squared(center, high).sqrt());
+        let (mut moment, mut radius) = ([0.0; 4], half_diagonal(center, low, high));
         if last - first <= leaf {
             let mut farthest = 0.0f32;
             for i in first..last {
@@ -109,6 +109,12 @@ impl Tree {
         (node.end, node.center, node.radius, node.moment) = (end, center, radius, moment);
         (low, high)
     }
+}
+
+/// Distance from `center` to the farthest corner of a box. Not simply to `high`: the centre of a tiny box is rounded.
+fn half_diagonal(center: [f32; 3], low: [f32; 3], high: [f32; 3]) -> f32 {
+    let farther = [0, 1, 2].map(|k| (high[k] - center[k]).max(center[k] - low[k]));
+    squared(farther, [0.0; 3]).sqrt()
 }
 
 /// Sum of two moments.
