@@ -26,9 +26,10 @@ fn uniform_sphere_comes_close_to_the_bound() {
     let map = Grid::new(1000, 1000, testkit::uniform_sphere(1_000_000, 1)).unwrap();
     for (entries, effort, allowed) in [
         (256, Effort::Fast, 1.03),
-        (256, Effort::Normal, 1.08),
-        (2048, Effort::Normal, 1.008),
-        (16_384, Effort::Normal, 1.008),
+        (256, Effort::Normal, 1.006),
+        (2048, Effort::Normal, 1.005),
+        // 61 points per entry: the table fits the sample, not the sphere.
+        (16_384, Effort::Normal, 1.0),
     ] {
         let (found, bound) = (rms_deg(&map, entries, effort), fejes_toth_rms_rad(entries).to_degrees());
         println!("       {:.4} × the bound", found / bound);

@@ -84,7 +84,8 @@ fn reduce(block: &[Texel], entries: &Entries, nearest: &Nearest) -> Texel {
     let group = votes.iter().rev().max_by_key(|&(_, &count)| count).map_or(0, |(&group, _)| group);
     let mut members = counted().filter(|t| t.group == group);
     let first = members.clone().next().copied().unwrap_or(block[0]);
-    let sum = members.try_fold([0.0; 3], |a: [f32; 3], t| Some([0, 1, 2].map(|k| a[k] + t.sum[k]))).unwrap_or(first.sum);
+    let sum =
+        members.try_fold([0.0; 3], |a: [f32; 3], t| Some([0, 1, 2].map(|k| a[k] + t.sum[k]))).unwrap_or(first.sum);
     let [x, y, z] = sum.map(f64::from);
     let length = (x * x + y * y + z * z).sqrt();
     // Opposite normals may leave no direction: then the first texel of the block speaks for it.

@@ -1,6 +1,6 @@
 //! Quantising normal maps: a small table of normals and an index map into it (Tarini et al. 2000, § 4).
 //!
-//! [`points`](self) finds the distinct directions, a quadtree over them makes exact nearest-entry search cheap, the
+//! First the distinct directions are found; a quadtree over them makes exact nearest-entry search cheap; the
 //! table is seeded by cutting clusters in two and shaped by Lloyd's iteration on ever more of the points, rounded to what
 //! files hold, sorted along a Hilbert curve, and only then is every texel given its nearest entry.
 //!
@@ -104,7 +104,6 @@ pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &
     materials.map_or(Ok(()), |m| map.expect_same_size("material map", m))?;
     covered.map_or(Ok(()), |c| map.expect_same_size("coverage mask", c))?;
 
-    let t0 = std::time::Instant::now();
     progress.begin("finding distinct normals", 1);
     let Gathered { points, mut point_of } = gather(map, materials, covered);
     progress.advance(1);
@@ -117,25 +116,21 @@ pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &
         return Err(Error::parameter("entries", count, expected));
     }
 
-    eprintln!("T gather {:?}", t0.elapsed());
     let tree = Tree::build(&points, LEAF);
-    eprintln!("T tree {:?}", t0.elapsed());
     let shaped = if count as usize >= points.len() {
         Entries::from_groups(points.groups.iter().map(|g| g.points.clone().map(|i| points.at(i)).collect()))
     } else {
-        lloyd::shape(&points, &tree, count as usize, lloyd::Schedule::new(effort), progress)
+        lloyd::shape(&points, &tree, count as usize, lloyd::Schedule::new(effort, count), progress)
     };
     let (table, entries) = finish_table::<S>(&points, shaped)?;
 
     progress.begin("indexing texels", 1);
-    eprintln!("T shape {:?}", t0.elapsed());
     let owners = Assigner::new(&points, &tree).assign_exact(&entries).owners;
     let nearest = Nearest::new(&entries);
     let group_of = |texel: usize| {
         let material = materials.map_or(0, |m| m.texels()[texel]);
         points.groups.binary_search_by_key(&material, |g| g.material).ok()
     };
-    eprintln!("T exact {:?}", t0.elapsed());
     let width = map.width() as usize;
     // The index of each texel takes the place of its point: one array less.
     par::for_each_row(&mut point_of, width, |y, row| {
@@ -150,7 +145,6 @@ pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &
     let base: IndexMap = Grid::new(map.width(), map.height(), point_of.into_iter().map(|i| i as u16).collect())?;
     progress.advance(1);
 
-    eprintln!("T index {:?}", t0.elapsed());
     let indices = if mip_levels {
         progress.begin("building mip levels", 1);
         let chain = mip::mip_chain(map, base, covered, &entries, &nearest)?;
@@ -161,7 +155,6 @@ pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &
     };
     let quantized = QuantizedMap::new(table, indices)?;
     let error = angle_stats(map, &quantized.expand(), covered)?;
-    eprintln!("T end {:?}", t0.elapsed());
     Ok(Quantized { map: quantized, error, distinct: points.len() })
 }
 

@@ -118,9 +118,12 @@ pub(super) fn gather<S: Space>(
     let mut points = Points::default();
     for (material, keys) in by_material(keys, materials) {
         let first = points.x.len();
-        for cell in keys.chunk_by(|a, b| a >> TEXEL_BITS == b >> TEXEL_BITS) {
+        let mut cell = Vec::new();
+        for keys in keys.chunk_by(|a, b| a >> TEXEL_BITS == b >> TEXEL_BITS) {
             let texel = |key: &u64| (key & ((1 << TEXEL_BITS) - 1)) as usize;
-            let mut cell: Vec<_> = cell.iter().map(|key| (identity(map, texel(key)), texel(key))).collect();
+            cell.clear();
+            cell.extend(keys.iter().map(|key| (identity(map, texel(key)), texel(key))));
+            // In most cells all are equal, and then in order already.
             cell.sort_unstable();
             for equal in cell.chunk_by(|a, b| a.0 == b.0) {
                 let id = points.x.len() as u32;

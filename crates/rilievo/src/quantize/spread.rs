@@ -27,7 +27,13 @@ impl Spread {
         let [xx, xy, xz, yy, yz, zz] = self.moments;
         let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         // The longest row cannot be orthogonal to the principal direction.
-        let largest = if xx >= yy && xx >= zz { 0 } else if yy >= zz { 1 } else { 2 };
+        let largest = if xx >= yy && xx >= zz {
+            0
+        } else if yy >= zz {
+            1
+        } else {
+            2
+        };
         let (mut axis, mut length) = (rows[largest], 0.0);
         for _ in 0..10 {
             let norm = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
