@@ -12,7 +12,7 @@ fn normal(v: [f64; 3]) -> Normal<Object> {
 }
 
 fn run(map: &NormalMap<Object>, options: &Options<'_>) -> Quantized<Object> {
-    quantize(map, options, &Silent).unwrap()
+    quantize(map, options, &Silent).expect("valid options")
 }
 
 fn with(entries: u32) -> Options<'static> {
@@ -36,7 +36,7 @@ fn hard_map(width: u32, height: u32, kind: u32, seed: u64) -> NormalMap<Object> 
             _ => normal([1e-30 * f64::from(i), f64::from(x) * 1e-3, 1.0]),
         }
     };
-    Grid::from_fn(width, height, texel).unwrap()
+    Grid::from_fn(width, height, texel).expect("a valid size")
 }
 
 /// The definition, in f64: the first of the entries `allowed` at the least distance.
@@ -45,7 +45,7 @@ fn oracle(table: &[Normal<Object>], allowed: std::ops::Range<usize>, n: Normal<O
         let [x, y, z] = (n.vec().as_dvec3() - table[e].vec().as_dvec3()).to_array();
         x * x + y * y + z * z
     };
-    allowed.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap()
+    allowed.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).expect("a table is never empty")
 }
 
 fn span_of(quantized: &Quantized<Object>, material: u8) -> Option<std::ops::Range<usize>> {

@@ -9,14 +9,17 @@ use rilievo::quantize::{Effort, Options, fejes_toth_rms_rad, quantize};
 use rilievo::{Grid, NormalMap, Object};
 
 /// RMS angle in degrees, by the definition.
+#[expect(clippy::print_stdout, reason = "shows the figures that are measured here")]
 fn rms_deg(map: &NormalMap<Object>, entries: u32, effort: Effort) -> f64 {
     let start = std::time::Instant::now();
-    let quantized = quantize(map, &Options { entries, effort, ..Options::default() }, &Silent).unwrap();
+    let quantized = quantize(map, &Options { entries, effort, ..Options::default() }, &Silent).expect("valid options");
     let seconds = start.elapsed().as_secs_f64();
     assert_eq!(quantized.map.table().len(), entries as usize);
     let expanded = quantized.map.expand();
+    assert_eq!(quantized.error.count, map.texels().len() as u64);
     let squares = map.texels().iter().zip(expanded.texels()).map(|(a, b)| a.angle_to(*b).powi(2));
     let rms = (squares.sum::<f64>() / map.texels().len() as f64).sqrt().to_degrees();
+    assert!((quantized.error.rms_rad.to_degrees() - rms).abs() < 1e-6);
     println!("{entries:6} {effort:?}: {rms:.4}° in {seconds:.3} s, {} distinct", quantized.distinct);
     rms
 }
@@ -26,7 +29,7 @@ fn uniform_sphere_comes_close_to_the_bound() {
     let map = Grid::new(1000, 1000, testkit::uniform_sphere(1_000_000, 1)).unwrap();
     for (entries, effort, allowed) in [
         (256, Effort::Fast, 1.03),
-        (256, Effort::Normal, 1.006),
+        (256, Effort::Normal, 1.005),
         (2048, Effort::Normal, 1.005),
         // 61 points per entry: the table fits the sample, not the sphere.
         (16_384, Effort::Normal, 1.0),

@@ -37,11 +37,15 @@ impl Schedule {
     /// more. Measured on a uniform sphere and an 8-bit object-space map with 200 000 distinct normals.
     pub(super) fn new(effort: Effort, count: u32) -> Self {
         let hot = 60 + 40_000u32.div_ceil(count).min(240);
-        let density = if count <= 4096 { 32 } else { 16 };
+        let density = match count {
+            0..=512 => 64,
+            513..=4096 => 32,
+            _ => 16,
+        };
         match effort {
             Effort::Fast => Self { density: 16, hot: 0, cool: 12, fine: 2, heat: 0.0, omega: 1.5 },
             Effort::Normal => Self { density, hot, cool: 30, fine: 6, heat: 0.4, omega: 1.6 },
-            Effort::Best => Self { density: 64, hot: 5 * hot, cool: 60, fine: 20, heat: 0.5, omega: 1.6 },
+            Effort::Best => Self { density: 2 * density, hot: 5 * hot, cool: 60, fine: 20, heat: 0.5, omega: 1.6 },
         }
     }
 }
