@@ -97,7 +97,7 @@ pub fn slopes(map: &HeightMap, filter: Filter, edges: Edges) -> Grid<[f32; 2]> {
 /// Normals of the relief, `normalize(−dh/dx, −dh/dy, 1)`; see [`slopes`].
 ///
 /// - **Space:** tangent; +X right, +Y up the picture, +Z out of it.
-/// - **Accuracy:** of the arithmetic, 10⁻⁶ rad against f64 (`tests/height_oracle.rs`); against exact normals of
+/// - **Accuracy:** of the arithmetic, about 10⁻⁶ rad against f64 (`tests/height_oracle.rs`); against exact normals of
 ///   smooth reliefs see `tests/height_analytic.rs`.
 ///
 /// ```

@@ -1,7 +1,9 @@
-//! Errors of normal maps in angles, and of pictures in the usual measures (contract; the owner of this folder completes it).
+//! Errors of normal maps in angles, and of pictures in the usual measures.
+
 mod angle;
 mod flip;
 mod picture;
+
 pub use angle::{AngleStats, angle_stats};
-pub use flip::flip_mean;
+pub use flip::{DEFAULT_PIXELS_PER_DEGREE, flip_map, flip_mean};
 pub use picture::{PictureStats, picture_stats};

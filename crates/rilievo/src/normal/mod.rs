@@ -1,5 +1,6 @@
 //! Unit normals that know their space, and the integers they are stored as.
 
+mod blue_noise;
 mod dither;
 mod encode;
 
