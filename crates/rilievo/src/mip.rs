@@ -72,7 +72,7 @@ pub fn majority(block: &[&u8]) -> u8 {
 }
 
 /// The texels of a side of length `above` that texel `i` of the halved side covers.
-fn span(i: u32, above: u32) -> std::ops::Range<u32> {
+pub(crate) fn span(i: u32, above: u32) -> std::ops::Range<u32> {
     let half = (above / 2).max(1);
     let end = if i + 1 == half { above } else { 2 * i + 2 };
     2 * i..end

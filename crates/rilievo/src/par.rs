@@ -27,3 +27,16 @@ pub fn map_range<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec
 pub fn map_range<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     (0..n).map(f).collect()
 }
+
+/// Sorts values whose equals cannot be told apart, so that the result does not depend on the method.
+#[cfg(feature = "rayon")]
+pub fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
+    use rayon::prelude::*;
+    values.par_sort_unstable();
+}
+
+/// Sorts values whose equals cannot be told apart, so that the result does not depend on the method.
+#[cfg(not(feature = "rayon"))]
+pub fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
+    values.sort_unstable();
+}

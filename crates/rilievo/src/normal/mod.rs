@@ -87,6 +87,12 @@ impl<S: Space> Normal<S> {
         Self::new_or(block.iter().map(|n| n.0).sum(), *block[0])
     }
 
+    /// Takes back a vector that came out of a normal: the same bits, where [`Normal::new`] may change the last one.
+    pub(crate) fn from_unit(v: Vec3) -> Self {
+        debug_assert!((v.length() - 1.0).abs() < 1e-5);
+        Self(v, PhantomData)
+    }
+
     /// The vector, of unit length within a few ulps.
     pub fn vec(self) -> Vec3 {
         self.0

@@ -1,33 +1,74 @@
-//! Quantising normal maps (contract; the owner of this folder completes it).
-use crate::indexed::{MaterialMap, NormalTable, QuantizedMap};
-use crate::measure::AngleStats;
-use crate::{Grid, MipChain, Normal, NormalMap, Progress, Result, Space};
+//! Quantising normal maps: a small table of normals and an index map into it (Tarini et al. 2000, § 4).
+//!
+//! First the distinct directions are found; a quadtree over them makes exact nearest-entry search cheap; the
+//! table is seeded by cutting clusters in two and shaped by Lloyd's iteration on ever more of the points, rounded to what
+//! files hold, sorted along a Hilbert curve, and only then is every texel given its nearest entry.
+//!
+//! - **Determinism:** class A: the same bits for any thread count, with and without `rayon`. Work is cut into pieces that
+//!   do not depend on the machine, and only + − × ÷ √ in a fixed order decide anything.
+
+mod assign;
+mod bound;
+mod coarse;
+mod entries;
+mod lloyd;
+mod mip;
+mod nearest;
+mod octahedral;
+mod points;
+mod round;
+mod seed;
+mod split_merge;
+mod spread;
+#[cfg(test)]
+mod testing;
+mod tree;
+
+pub use bound::fejes_toth_rms_rad;
+
+use self::assign::Assigner;
+use self::entries::Entries;
+use self::nearest::Nearest;
+use self::points::{Gathered, NO_POINT, Points, gather};
+use self::tree::{LEAF, Tree};
+use crate::indexed::{IndexMap, MAX_ENTRIES, MaterialMap, MaterialSpan, NormalTable, QuantizedMap};
+use crate::measure::{AngleStats, angle_stats};
+use crate::normal::encode_u16;
+use crate::{Error, Grid, MipChain, NormalMap, Progress, Result, Space, par};
 
 /// How much work the quantiser does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Effort {
-    /// Few passes.
+    /// Few steps: a third of the time, about 3 % more error.
     Fast,
     /// The default.
     #[default]
     Normal,
-    /// As good as it gets.
+    /// Many steps, for the last half per cent.
     Best,
 }
 
 /// What to make.
 #[derive(Debug, Clone, Copy)]
 pub struct Options<'a> {
-    /// Number of table entries, 2 … 65 536.
+    /// Number of table entries, 1 … 65 536. A map with fewer distinct (normal, material) pairs gets just these.
     pub entries: u32,
     /// How hard to try.
     pub effort: Effort,
     /// A material per texel: entries are (normal, material) pairs and a texel never changes material.
     pub materials: Option<&'a MaterialMap>,
-    /// Texels that count (false: gutter; they get the nearest entry but do not shape the table).
+    /// Texels that count. The others (gutter) do not shape the table; they get the nearest entry of their material, or
+    /// of any where their material has none.
     pub covered: Option<&'a Grid<bool>>,
     /// Whether to build the index maps of all mip levels.
     pub mip_levels: bool,
+}
+
+impl Default for Options<'_> {
+    /// 2048 entries, the paper's choice; normal effort, one material, all texels, one level.
+    fn default() -> Self {
+        Self { entries: 2048, effort: Effort::Normal, materials: None, covered: None, mip_levels: false }
+    }
 }
 
 /// A quantised map and what it cost.
@@ -37,20 +78,105 @@ pub struct Quantized<S> {
     pub map: QuantizedMap<S>,
     /// Angular error over the covered texels of level 0.
     pub error: AngleStats,
+    /// Distinct (normal, material) pairs among the covered texels.
+    pub distinct: usize,
 }
 
 /// Quantises `map` to a table of `options.entries` normals.
 ///
+/// Every entry is a unit normal that 16 bits per component hold exactly, and every texel has the entry of its material
+/// that is nearest to it (of equally near ones, the first). Entries are sorted by material, and within a material along
+/// a Hilbert curve over the sphere.
+///
+/// - **Space:** that of `map`; nothing here depends on it.
+/// - **Memory:** some 12 bytes per texel beside the map while it works, and 30 per distinct normal.
+/// - **Accuracy:** on a uniform sphere within 1 % of [`fejes_toth_rms_rad`], held by `tests/quantize_quality.rs`.
+///
 /// # Errors
-/// x
+/// [`Error::Parameter`] for a number of entries outside 1 … 65 536 or below the number of materials in use,
+/// [`Error::SizeMismatch`] if `materials` or `covered` have another size than `map`, [`Error::Missing`] if no texel is
+/// covered.
 pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &dyn Progress) -> Result<Quantized<S>> {
-    let _ = (options, progress);
-    let table = NormalTable::new(vec![Normal::Z])?;
-    let map = QuantizedMap::new(table, MipChain::single(Grid::filled(map.width(), map.height(), 0)?))?;
-    Ok(Quantized { map, error: AngleStats::default() })
+    let &Options { entries: count, effort, materials, covered, mip_levels } = options;
+    if count == 0 || count as usize > MAX_ENTRIES {
+        return Err(Error::parameter("entries", count, format_args!("1 to {MAX_ENTRIES}")));
+    }
+    materials.map_or(Ok(()), |m| map.expect_same_size("material map", m))?;
+    covered.map_or(Ok(()), |c| map.expect_same_size("coverage mask", c))?;
+
+    progress.begin("finding distinct normals", 1);
+    let Gathered { points, mut point_of } = gather(map, materials, covered);
+    progress.advance(1);
+    let in_use = points.groups.len();
+    if in_use == 0 {
+        return Err(Error::Missing { what: "covered texels", remedy: "give a coverage mask that is true somewhere" });
+    }
+    if in_use > count as usize {
+        let expected = format_args!("at least {in_use}, one for each material in use").to_string();
+        return Err(Error::parameter("entries", count, expected));
+    }
+
+    let tree = Tree::build(&points, LEAF);
+    let shaped = if count as usize >= points.len() {
+        Entries::from_groups(points.groups.iter().map(|g| g.points.clone().map(|i| points.at(i)).collect()))
+    } else {
+        lloyd::shape(&points, &tree, count as usize, lloyd::Schedule::new(effort, count), progress)
+    };
+    let (table, entries) = finish_table::<S>(&points, shaped)?;
+
+    progress.begin("indexing texels", 1);
+    let owners = Assigner::new(&points, &tree).assign_exact(&entries).owners;
+    let nearest = Nearest::new(&entries);
+    let group_of = |texel: usize| {
+        let material = materials.map_or(0, |m| m.texels()[texel]);
+        points.groups.binary_search_by_key(&material, |g| g.material).ok()
+    };
+    let width = map.width() as usize;
+    // The index of each texel takes the place of its point: one array less.
+    par::for_each_row(&mut point_of, width, |y, row| {
+        for (x, slot) in row.iter_mut().enumerate() {
+            let texel = y * width + x;
+            *slot = match *slot {
+                NO_POINT => gutter(&entries, &nearest, group_of(texel), map.texels()[texel].vec().to_array()),
+                point => owners[point as usize],
+            };
+        }
+    });
+    let base: IndexMap = Grid::new(map.width(), map.height(), point_of.into_iter().map(|i| i as u16).collect())?;
+    progress.advance(1);
+
+    let indices = if mip_levels {
+        progress.begin("building mip levels", 1);
+        let chain = mip::mip_chain(map, base, covered, &entries, &nearest)?;
+        progress.advance(1);
+        chain
+    } else {
+        MipChain::single(base)
+    };
+    let quantized = QuantizedMap::new(table, indices)?;
+    let error = angle_stats(map, &quantized.expand(), covered)?;
+    Ok(Quantized { map: quantized, error, distinct: points.len() })
 }
 
-/// The lowest RMS error any table of `entries` normals can reach on a uniform sphere, in radians (Fejes Tóth).
-pub fn fejes_toth_rms_rad(entries: u32) -> f64 {
-    f64::from(entries)
+/// The entry of a texel that is not covered: the nearest of its group, or of all if it has none.
+fn gutter(entries: &Entries, nearest: &Nearest, group: Option<usize>, normal: [f32; 3]) -> u32 {
+    let direction = normal.map(f64::from);
+    let find = |group| nearest.find(group, direction, None);
+    let distance = |&e: &u32| entries::squared_f64(direction, entries.directions[e as usize]);
+    let of_any = || (0..entries.spans.len()).map(find).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    group.map(find).or_else(of_any).unwrap_or(0)
+}
+
+/// Rounds the entries to what files hold and puts them in table order.
+fn finish_table<S: Space>(points: &Points, shaped: Entries) -> Result<(NormalTable<S>, Entries)> {
+    let mut normals = Vec::with_capacity(shaped.len());
+    let mut spans = Vec::with_capacity(points.groups.len());
+    for (group, span) in points.groups.iter().zip(&shaped.spans) {
+        let mut part: Vec<_> = shaped.directions[span.clone()].iter().map(|&d| round::storable::<S>(d)).collect();
+        part.sort_by_cached_key(|&n| (octahedral::hilbert(n.vec().to_array()), encode_u16(n)));
+        normals.extend(part);
+        spans.push(MaterialSpan { material: group.material, entries: span.start as u32..span.end as u32 });
+    }
+    let entries = Entries { directions: normals.iter().map(|n| n.vec().to_array()).collect(), spans: shaped.spans };
+    Ok((NormalTable::with_materials(normals, spans)?, entries))
 }

@@ -1,0 +1,130 @@
+//! Which entry is nearest to a single direction.
+
+use super::entries::{Entries, squared_f64};
+use super::octahedral::morton;
+use super::points::Points;
+use super::tree::{SLACK, Tree};
+
+/// Entries of a quadtree leaf: a few, as each visit costs as much as looking at some entries.
+const LEAF: usize = 6;
+
+/// A quadtree over the entries of each group.
+#[derive(Debug)]
+pub(super) struct Nearest {
+    points: Points,
+    /// The table index of each point.
+    ids: Vec<u32>,
+    tree: Tree,
+}
+
+/// A search under way.
+struct Query {
+    direction: [f64; 3],
+    /// This entry does not count.
+    except: u32,
+    distance: f64,
+    entry: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Nearest {
+    /// Sorts entries for searching. Every group must have some.
+    pub(super) fn new(entries: &Entries) -> Self {
+        let mut ids = Vec::with_capacity(entries.len());
+        for span in &entries.spans {
+            let mut order: Vec<u32> = span.clone().map(|id| id as u32).collect();
+            order.sort_by_cached_key(|&id| (morton(entries.directions[id as usize]), id));
+            ids.extend(order);
+        }
+        let group = |span: &std::ops::Range<usize>| {
+            (0, ids[span.clone()].iter().map(|&id| (entries.directions[id as usize], 1.0)).collect())
+        };
+        let points = Points::new(entries.spans.iter().map(group));
+        let tree = Tree::build(&points, LEAF);
+        Self { points, ids, tree }
+    }
+
+    /// The entry of `group` nearest to `direction` by [`squared_f64`]; of equals, the lowest. `hint` may be any entry of
+    /// the group: a good one saves time.
+    pub(super) fn find(&self, group: usize, direction: [f64; 3], hint: Option<(u32, [f32; 3])>) -> u32 {
+        let (entry, distance) = hint.map_or((NONE, f64::INFINITY), |(id, d)| (id, squared_f64(direction, d)));
+        let mut query = Query { direction, except: NONE, distance, entry };
+        self.visit(self.tree.roots[group], &mut query);
+        query.entry
+    }
+
+    /// The entry of `group` nearest to its entry `own`, and its squared distance; `None` if `own` is the only one.
+    pub(super) fn neighbour(&self, group: usize, own: u32, direction: [f32; 3]) -> Option<(u32, f64)> {
+        let direction = direction.map(f64::from);
+        let mut query = Query { direction, except: own, distance: f64::INFINITY, entry: NONE };
+        self.visit(self.tree.roots[group], &mut query);
+        (query.entry != NONE).then_some((query.entry, query.distance))
+    }
+
+    fn visit(&self, node: u32, query: &mut Query) {
+        let n = &self.tree.nodes[node as usize];
+        if n.end == node + 1 {
+            for i in n.first as usize..n.last as usize {
+                let (id, distance) = (self.ids[i], squared_f64(query.direction, self.points.at(i)));
+                let closer = distance < query.distance || (distance == query.distance && id < query.entry);
+                if closer && id != query.except {
+                    (query.distance, query.entry) = (distance, id);
+                }
+            }
+            return;
+        }
+        // The child that is nearest first: it makes the others superfluous.
+        let mut order = [(f64::INFINITY, NONE); 4];
+        for (slot, child) in order.iter_mut().zip(self.tree.children(node)) {
+            let c = &self.tree.nodes[child as usize];
+            let gap = squared_f64(query.direction, c.center).sqrt() - f64::from(c.radius) * f64::from(1.0 + SLACK);
+            *slot = (gap.max(0.0), child);
+        }
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for (gap, child) in order {
+            // Not `>=`: an equally near entry with a lower index may be inside.
+            if child == NONE || gap * gap * (1.0 - 1e-9) > query.distance {
+                break;
+            }
+            self.visit(child, query);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{brute_force, scattered};
+    use super::*;
+
+    #[test]
+    fn find_agrees_with_brute_force_with_and_without_a_hint() {
+        for count in [2, 30, 3000] {
+            let points = scattered(count, 2);
+            let group = |g: usize| points.groups[g].points.clone().map(|i| points.at(i)).collect::<Vec<_>>();
+            let mut entries = Entries::from_groups([group(0), group(1)]);
+            let twin = entries.spans[1].end - 1;
+            entries.directions[twin] = entries.directions[entries.spans[1].start];
+            let nearest = Nearest::new(&entries);
+            let queries = scattered(2000, 1);
+            for i in 0..queries.len() {
+                let (q, g) = (queries.at(i), i % 2);
+                let span = entries.spans[g].clone();
+                let expected = (span.start + brute_force(q, &entries.directions[span.clone()])) as u32;
+                let wide = q.map(f64::from);
+                assert_eq!(nearest.find(g, wide, None), expected);
+                let hint = span.end - 1;
+                assert_eq!(nearest.find(g, wide, Some((hint as u32, entries.directions[hint]))), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn neighbour_is_never_itself() {
+        let z = [0.0, 0.0, 1.0];
+        let nearest = Nearest::new(&Entries::from_groups([vec![z], vec![z, z, [1.0, 0.0, 0.0]]]));
+        assert_eq!(nearest.neighbour(0, 0, z), None);
+        assert_eq!(nearest.neighbour(1, 1, z), Some((2, 0.0)));
+        assert_eq!(nearest.neighbour(1, 3, [1.0, 0.0, 0.0]), Some((1, 2.0)));
+    }
+}

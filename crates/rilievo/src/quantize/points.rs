@@ -1,0 +1,217 @@
+//! The distinct (normal, material) pairs of a map, with how often each occurs.
+//!
+//! Real maps repeat themselves (an 8-bit map of a million texels has some ten thousand directions), and every later
+//! stage works on distinct directions only. Space: 8 bytes per run of equal texels while sorting, 4 per texel and 16
+//! per distinct pair afterwards.
+
+use std::ops::Range;
+
+use super::octahedral::{MORTON_CODE_BITS, morton};
+use crate::{Grid, MaterialMap, NormalMap, Space, par};
+
+/// How many points the kernels handle side by side; the arrays are padded by as many.
+pub(super) const LANES: usize = 8;
+/// Marks a texel that has no point because it is not covered.
+pub(super) const NO_POINT: u32 = u32::MAX;
+/// Bits of a texel's number; with a Morton code they fill 64 bits. [`crate::grid::MAX_TEXELS`] fits exactly.
+const TEXEL_BITS: u32 = 64 - MORTON_CODE_BITS;
+const _: () = assert!(crate::grid::MAX_TEXELS <= 1 << TEXEL_BITS);
+/// Texels that are looked at together. Part of the result's definition only in that runs end at its multiples.
+const PIECE: usize = 1 << 16;
+
+/// The points of one material.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Group {
+    /// The material's number.
+    pub material: u8,
+    /// Its points; never empty.
+    pub points: Range<usize>,
+}
+
+/// Weighted points in or on the unit sphere, by material and then in Morton order. Planar, and padded by [`LANES`]
+/// points without weight, for the kernels' sake.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Points {
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
+    pub z: Vec<f32>,
+    pub weight: Vec<f32>,
+    /// In rising order of material.
+    pub groups: Vec<Group>,
+}
+
+impl Points {
+    /// Points from groups of (direction, weight) that are in order already.
+    pub(super) fn new(groups: impl IntoIterator<Item = (u8, Vec<([f32; 3], f32)>)>) -> Self {
+        let mut all = Self::default();
+        for (material, points) in groups {
+            let first = all.x.len();
+            for (direction, weight) in points {
+                all.push(direction, weight);
+            }
+            all.groups.push(Group { material, points: first..all.x.len() });
+        }
+        all.pad();
+        all
+    }
+
+    fn push(&mut self, [x, y, z]: [f32; 3], weight: f32) {
+        self.x.push(x);
+        self.y.push(y);
+        self.z.push(z);
+        self.weight.push(weight);
+    }
+
+    fn pad(&mut self) {
+        for _ in 0..LANES {
+            self.push([0.0; 3], 0.0);
+        }
+    }
+
+    /// How many there are, without the padding.
+    pub(super) fn len(&self) -> usize {
+        self.x.len() - LANES
+    }
+
+    /// Point `i`.
+    pub(super) fn at(&self, i: usize) -> [f32; 3] {
+        [self.x[i], self.y[i], self.z[i]]
+    }
+}
+
+/// The points of a map and which texel is which.
+#[derive(Debug)]
+pub(super) struct Gathered {
+    /// The distinct covered (normal, material) pairs; the weight of each is its number of texels.
+    pub points: Points,
+    /// The point of each texel, [`NO_POINT`] where it is not covered.
+    pub point_of: Vec<u32>,
+}
+
+/// What makes two texels the same. −0 equals 0.
+fn identity<S: Space>(map: &NormalMap<S>, texel: usize) -> [u32; 3] {
+    map.texels()[texel].vec().to_array().map(|c| (c + 0.0).to_bits())
+}
+
+/// Finds the distinct covered (normal, material) pairs of `map`. Sizes must agree.
+pub(super) fn gather<S: Space>(
+    map: &NormalMap<S>,
+    materials: Option<&MaterialMap>,
+    covered: Option<&Grid<bool>>,
+) -> Gathered {
+    let texels = map.texels();
+    let is_covered = |texel: usize| covered.is_none_or(|c| c.texels()[texel]);
+    let material_of = |texel: usize| materials.map_or(0, |m| m.texels()[texel]);
+    let same = |a: usize, b: usize| texels[a] == texels[b] && material_of(a) == material_of(b);
+
+    let pieces = par::map_range(texels.len().div_ceil(PIECE), |piece| {
+        let first = piece * PIECE;
+        let starts_run = |&t: &usize| is_covered(t) && (t == first || !is_covered(t - 1) || !same(t, t - 1));
+        let key = |t: usize| morton(texels[t].vec().to_array()) << TEXEL_BITS | t as u64;
+        (first..texels.len().min(first + PIECE)).filter(starts_run).map(key).collect::<Vec<_>>()
+    });
+    let mut keys = pieces.concat();
+    drop(pieces);
+    par::sort_unstable(&mut keys);
+
+    let mut point_of = vec![NO_POINT; texels.len()];
+    let mut points = Points::default();
+    for (material, keys) in by_material(keys, materials) {
+        let first = points.x.len();
+        let mut cell = Vec::new();
+        for keys in keys.chunk_by(|a, b| a >> TEXEL_BITS == b >> TEXEL_BITS) {
+            let texel = |key: &u64| (key & ((1 << TEXEL_BITS) - 1)) as usize;
+            cell.clear();
+            cell.extend(keys.iter().map(|key| (identity(map, texel(key)), texel(key))));
+            // In most cells all are equal, and then in order already.
+            cell.sort_unstable();
+            for equal in cell.chunk_by(|a, b| a.0 == b.0) {
+                let id = points.x.len() as u32;
+                points.push(equal[0].0.map(f32::from_bits), 0.0);
+                for &(_, texel) in equal {
+                    point_of[texel] = id;
+                }
+            }
+        }
+        points.groups.push(Group { material, points: first..points.x.len() });
+    }
+
+    let mut counts = vec![0u32; points.x.len()];
+    let mut current = NO_POINT;
+    for (texel, point) in point_of.iter_mut().enumerate() {
+        if *point != NO_POINT {
+            current = *point;
+        } else if is_covered(texel) {
+            *point = current;
+        }
+        if *point != NO_POINT {
+            counts[*point as usize] += 1;
+        }
+    }
+    for (weight, count) in points.weight.iter_mut().zip(counts) {
+        *weight = count as f32;
+    }
+    points.pad();
+    Gathered { points, point_of }
+}
+
+/// Sorted keys of texels, parted by material without losing their order; in rising order of material.
+fn by_material(keys: Vec<u64>, materials: Option<&MaterialMap>) -> Vec<(u8, Vec<u64>)> {
+    let parts = match materials {
+        None => vec![keys],
+        Some(materials) => {
+            let mut parts = vec![Vec::new(); 256];
+            for key in keys {
+                let texel = (key & ((1 << TEXEL_BITS) - 1)) as usize;
+                parts[usize::from(materials.texels()[texel])].push(key);
+            }
+            parts
+        }
+    };
+    (0..=255).zip(parts).filter(|(_, keys)| !keys.is_empty()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::{Normal, Object};
+
+    fn map(directions: &[[f32; 3]]) -> NormalMap<Object> {
+        let normals = directions.iter().map(|&d| Normal::new(Vec3::from_array(d)).unwrap()).collect();
+        Grid::new(directions.len() as u32, 1, normals).unwrap()
+    }
+
+    #[test]
+    fn equal_texels_share_a_point_and_zeros_have_no_sign() {
+        let z = [0.0, 0.0, 1.0];
+        let map = map(&[z, z, [1.0, 0.0, 0.0], [-0.0, 0.0, 1.0], z, [0.0, 1.0, 0.0]]);
+        let found = gather(&map, None, None);
+        assert_eq!(found.points.len(), 3);
+        let p = &found.point_of;
+        assert!(p[0] == p[1] && p[1] == p[3] && p[3] == p[4] && p[0] != p[2] && p[5] != p[2]);
+        assert_eq!(found.points.weight[p[0] as usize], 4.0);
+        assert_eq!(found.points.at(p[2] as usize), [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn same_normal_of_two_materials_is_two_points() {
+        let map = map(&[[0.0, 0.0, 1.0]; 5]);
+        let materials = Grid::new(5, 1, vec![7, 7, 3, 3, 7]).unwrap();
+        let covered = Grid::new(5, 1, vec![true, false, true, true, true]).unwrap();
+        let found = gather(&map, Some(&materials), Some(&covered));
+        assert_eq!(found.point_of, [1, NO_POINT, 0, 0, 1]);
+        assert_eq!(found.points.weight[..2], [2.0, 2.0]);
+        let group = |material, points| Group { material, points };
+        assert_eq!(found.points.groups, [group(3, 0..1), group(7, 1..2)]);
+    }
+
+    #[test]
+    fn weights_and_ids_survive_runs_over_pieces() {
+        let flat = Grid::filled(1 << 9, 1 << 9, Normal::<Object>::Z).unwrap();
+        let found = gather(&flat, None, None);
+        assert_eq!((found.points.len(), found.points.weight[0]), (1, 262_144.0));
+        assert!(found.point_of.iter().all(|&p| p == 0));
+    }
+}
