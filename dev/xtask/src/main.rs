@@ -16,6 +16,7 @@ mod test;
 mod workspace;
 
 use clap::{Parser, Subcommand};
+use std::process::ExitCode;
 
 #[derive(Parser)]
 #[command(name = "cargo xtask", about = "The developer's commands of rilievo")]
@@ -40,13 +41,21 @@ enum Task {
     Bench(bench::Options),
 }
 
-fn main() -> anyhow::Result<()> {
-    match Arguments::parse().command {
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
         Task::Test(options) => test::run(&options),
         Task::Needs => needs::report(),
         Task::Demo(options) => demo::run(&options),
         Task::Bless => bless::run(),
         Task::Hygiene => hygiene::run(),
         Task::Bench(options) => bench::run(&options),
-    }
+    };
+    // Without a stack trace: what failed is another program or a file, not this one.
+    done.map_or_else(
+        |error| {
+            eprintln!("{error:#}");
+            ExitCode::FAILURE
+        },
+        |()| ExitCode::SUCCESS,
+    )
 }

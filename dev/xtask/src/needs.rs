@@ -183,7 +183,7 @@ fn verdict(missing: &[&Tool]) -> Result<Vec<String>> {
     if !fatal.is_empty() {
         bail!("{}", fatal.join("; "));
     }
-    Ok(missing.iter().map(|tool| tool.describe()).collect())
+    Ok(missing.iter().filter(|tool| tool.without == Without::Skip).map(|tool| tool.describe()).collect())
 }
 
 fn fatal(missing: &[&Tool], ci: bool) -> Vec<String> {

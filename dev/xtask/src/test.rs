@@ -71,7 +71,10 @@ pub(crate) fn run(options: &Options) -> Result<()> {
         match &outcome {
             Outcome::Passed(time) => eprintln!("{}: ok in {:.1} s", step.name, time.as_secs_f64()),
             Outcome::Failed(_, why) => eprintln!("{}: FAILED: {why}", step.name),
-            Outcome::Skipped(why) => eprintln!("{}: SKIPPED: {why}", step.name),
+            Outcome::Skipped(why) => {
+                eprintln!("{}: SKIPPED: {why}", step.name);
+                skips.insert(format!("step {}: {why}", step.name));
+            }
         }
         outcomes.push((step.name, outcome));
     }
