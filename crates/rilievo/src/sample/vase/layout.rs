@@ -118,7 +118,8 @@ impl Layout {
         l.stripe(LINE, Clay);
         l.stripe(LINE, Glaze);
         let rays = p.end(6) - l.cursor - 0.055;
-        l.strokes(rays, Clay, 20, ornament::ray);
+        // As many as the default mesh has segments: on a tapering body each then falls on faces in the same way.
+        l.strokes(rays, Clay, 24, ornament::ray);
         l.stripe(LINE, Glaze);
         l.stripe(0.010, Clay);
         // Stem and foot.

@@ -172,6 +172,20 @@ mod tests {
     }
 
     #[test]
+    fn tangents_point_along_u() {
+        let mesh = mesh(DEFAULT_SEGMENTS).unwrap().with_tangents().unwrap();
+        let body =
+            mesh.positions().iter().zip(mesh.tangents()).zip(mesh.uvs()).filter(|(_, uv)| uv.y > 0.3 && uv.y < 0.8);
+        let mut checked = 0;
+        for ((p, t), uv) in body {
+            let right = Vec3::new(p.z, 0.0, -p.x).normalize();
+            assert!(t.truncate().dot(right) > 0.97 && t.w == 1.0, "{p} {t} {uv}");
+            checked += 1;
+        }
+        assert!(checked > 200);
+    }
+
+    #[test]
     fn segments_out_of_range_are_refused() {
         assert!(mesh(2).is_err() && mesh(4097).is_err());
     }
