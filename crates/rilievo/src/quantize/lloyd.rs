@@ -36,7 +36,7 @@ impl Schedule {
     /// Small tables get more steps and more points per entry: there both cost little, and one fault of the lattice weighs
     /// more. Measured on a uniform sphere and an 8-bit object-space map with 200 000 distinct normals.
     pub(super) fn new(effort: Effort, count: u32) -> Self {
-        let hot = 60 + 40_000u32.div_ceil(count).min(240);
+        let hot = 60 + 80_000u32.div_ceil(count).min(340);
         let density = match count {
             0..=512 => 64,
             513..=4096 => 32,
