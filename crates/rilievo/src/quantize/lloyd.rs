@@ -1,7 +1,7 @@
 //! Shaping the table: Lloyd's iteration, hurried along and shaken.
 //!
-//! Plain Lloyd (1982) steps move every entry to the mean of its points. Here they overshoot (ω > 1), which needs about
-//! half the steps; entries are moved between regions now and then ([`split_merge`]); and while the table is still hot each
+//! Plain Lloyd (1982) steps move every entry to the mean of its points. Here they overshoot (ω > 1), which needs
+//! fewer steps; entries are moved between regions now and then ([`split_merge`]); and while the table is still hot each
 //! entry is drawn towards a random one of its points, a little less with every step, which frees the lattice of the
 //! cells from most of its faults (stochastic relaxation: Zeger, Vaisey and Gersho 1992).
 

@@ -39,7 +39,7 @@ use crate::{Error, Grid, MipChain, NormalMap, Progress, Result, Space, par};
 /// How much work the quantiser does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Effort {
-    /// Few steps: 2 to 3 % more error in a half to a sixth of the time.
+    /// Few steps: 2 to 3½ % more error in a sixth to a half of the time.
     Fast,
     /// The default.
     #[default]
@@ -89,7 +89,7 @@ pub struct Quantized<S> {
 /// a Hilbert curve over the sphere.
 ///
 /// - **Space:** that of `map`; nothing here depends on it.
-/// - **Memory:** some 12 bytes per texel beside the map while it works, and 30 per distinct normal.
+/// - **Memory:** up to 20 bytes per texel beside the map while it works, and some 40 per distinct normal.
 /// - **Accuracy:** on a uniform sphere within ½ % of [`fejes_toth_rms_rad`], held by `tests/quantize_quality.rs`.
 ///
 /// # Errors
