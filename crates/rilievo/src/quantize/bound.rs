@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Intervals of the quadrature; doubling them changes no result by more than 10⁻¹² of itself.
+/// Intervals of the quadrature; the integrand is smooth. `triangles_cover_the_sphere` holds its error below 10⁻⁹.
 const INTERVALS: u32 = 256;
 
 /// The lowest root-mean-square angle, in radians, between directions spread evenly over the sphere and the nearest of
@@ -21,8 +21,8 @@ const INTERVALS: u32 = 256;
 ///
 /// - **Validity:** n ≥ 3. For n = 2 the exact value of two hemispheres is given, √(π − 2), for n = 1 the exact one of a
 ///   single direction, √((π² − 4) / 2), and for n = 0 the largest angle there is, π.
-/// - Measured over a finite sample of N random directions, a table can come out below by about n / (2N) of itself,
-///   because it fits the sample.
+/// - Measured over a finite sample of N random directions, a table can come out below, because it fits the
+///   sample: 2.4 % below for n = 16 384 and N = 10⁶.
 pub fn fejes_toth_rms_rad(entries: u32) -> f64 {
     match entries {
         0 => PI,

@@ -1,7 +1,7 @@
 //! Shaping the table: Lloyd's iteration, hurried along and shaken.
 //!
-//! Plain Lloyd (1982) steps move every entry to the mean of its points. Here they overshoot (ω > 1), which needs about
-//! half the steps; entries are moved between regions now and then ([`split_merge`]); and while the table is still hot each
+//! Plain Lloyd (1982) steps move every entry to the mean of its points. Here they overshoot (ω > 1), which needs
+//! fewer steps; entries are moved between regions now and then ([`split_merge`]); and while the table is still hot each
 //! entry is drawn towards a random one of its points, a little less with every step, which frees the lattice of the
 //! cells from most of its faults (stochastic relaxation: Zeger, Vaisey and Gersho 1992).
 
@@ -36,7 +36,7 @@ impl Schedule {
     /// Small tables get more steps and more points per entry: there both cost little, and one fault of the lattice weighs
     /// more. Measured on a uniform sphere and an 8-bit object-space map with 200 000 distinct normals.
     pub(super) fn new(effort: Effort, count: u32) -> Self {
-        let hot = 60 + 40_000u32.div_ceil(count).min(240);
+        let hot = 60 + 80_000u32.div_ceil(count).min(340);
         let density = match count {
             0..=512 => 64,
             513..=4096 => 32,

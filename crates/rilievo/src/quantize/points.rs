@@ -1,8 +1,8 @@
 //! The distinct (normal, material) pairs of a map, with how often each occurs.
 //!
 //! Real maps repeat themselves (an 8-bit map of a million texels has some ten thousand directions), and every later
-//! stage works on distinct directions only. Space: 8 bytes per run of equal texels while sorting, 4 per texel and 16
-//! per distinct pair afterwards.
+//! stage works on distinct directions only. Space: 16 bytes per run of equal texels while sorting, 4 per texel and
+//! 16 per distinct pair afterwards.
 
 use std::ops::Range;
 

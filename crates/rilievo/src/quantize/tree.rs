@@ -21,7 +21,7 @@ pub(super) struct Node {
 }
 
 /// Points of a leaf. Smaller leaves need fewer distances, larger ones fewer nodes.
-pub(super) const LEAF: usize = 16;
+pub(super) const LEAF: usize = 32;
 
 /// Relative error that f32 distances and radii stay well below (some 40 roundings of 6·10⁻⁸ in the deepest tree).
 pub(super) const SLACK: f32 = 1e-5;
