@@ -1,4 +1,5 @@
 //! Untrusted pictures: damaged, forged and odd files must give an error or a sound map, and never a panic.
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -201,7 +202,15 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
         bytes.extend(normals.texels().iter().flat_map(|n| n.vec().to_array()).flat_map(f32::to_le_bytes));
         bytes
     };
+    let mut tiff = Vec::new();
+    let mut writer = tiff::encoder::TiffEncoder::new(std::io::Cursor::new(&mut tiff)).unwrap();
+    writer.write_image::<tiff::encoder::colortype::RGB8>(9, 7, codes.texels().as_flattened()).unwrap();
+    let mut jpeg = Vec::new();
+    let mut writer = ::image::codecs::jpeg::JpegEncoder::new(&mut jpeg);
+    writer.encode(codes.texels().as_flattened(), 9, 7, ::image::ExtendedColorType::Rgb8).unwrap();
     vec![
+        ("colors.tiff", tiff),
+        ("colors.jpg", jpeg),
         ("palette.png", encode_indexed_png(&small_map(11), Convention::Gl).unwrap()),
         ("bytes.png", encode_indexed_png(&small_map(200), Convention::Dx).unwrap()),
         ("r8.ktx2", encode_ktx2(&small_map(200), Convention::Dx).unwrap()),

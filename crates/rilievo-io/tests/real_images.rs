@@ -1,4 +1,5 @@
 //! Real maps of the collection, against what is known of them.
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use rilievo::{Convention, Tangent};
 use rilievo_io::*;

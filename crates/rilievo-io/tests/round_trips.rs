@@ -1,4 +1,5 @@
 //! What is written comes back; and independent readers agree.
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use rilievo::normal::{encode_u8, encode_u16};
 use rilievo::{
@@ -121,9 +122,9 @@ fn indexed_png_round_trips_in_every_bit_depth() {
                 let written = map(size, entries);
                 let bytes = encode_indexed_png(&written, convention).unwrap();
                 let bits = match entries {
-                    ..=2 => 1,
-                    ..=4 => 2,
-                    ..=16 => 4,
+                    0..=2 => 1,
+                    3..=4 => 2,
+                    5..=16 => 4,
                     _ => 8,
                 };
                 assert_eq!(bytes[24..26], [bits, 3], "bit depth and colour type");
@@ -269,7 +270,8 @@ fn materials_are_gray_values_or_palette_indices() {
 #[test]
 fn tiff_of_all_depths_are_read() {
     use tiff::encoder::{TiffEncoder, colortype as ct};
-    let write = |run: &dyn Fn(&mut TiffEncoder<std::io::Cursor<&mut Vec<u8>>>)| {
+    type Writer<'a> = TiffEncoder<std::io::Cursor<&'a mut Vec<u8>>>;
+    let write = |run: &dyn Fn(&mut Writer)| {
         let mut bytes = Vec::new();
         run(&mut TiffEncoder::new(std::io::Cursor::new(&mut bytes)).unwrap());
         source(bytes)

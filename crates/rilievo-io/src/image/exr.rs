@@ -55,7 +55,7 @@ pub(crate) fn decode(source: &Source, limits: &Limits) -> crate::Result<Raster> 
     let all = |names: [&str; 3]| names.map(find).into_iter().collect::<Option<Vec<_>>>();
     let alpha = find("A");
     let gray = || {
-        let mut data = channels.iter().filter(|c| !alpha.is_some_and(|a| a.name == c.name));
+        let mut data = channels.iter().filter(|c| alpha.is_none_or(|a| a.name != c.name));
         data.next().filter(|_| data.next().is_none()).map(|c| vec![c])
     };
     let Some(mut chosen) = all(["R", "G", "B"]).or_else(|| all(["X", "Y", "Z"])).or_else(gray) else {

@@ -35,10 +35,10 @@ pub(super) fn decode(source: &Source, import: &ImportAs, limits: &Limits) -> Res
 pub fn encode_indexed_png<S: Space>(map: &QuantizedMap<S>, convention: Convention) -> Result<Vec<u8>> {
     let entries = map.table().len();
     let depth = match entries {
-        ..=2 => BitDepth::One,
-        ..=4 => BitDepth::Two,
-        ..=16 => BitDepth::Four,
-        ..=256 => BitDepth::Eight,
+        0..=2 => BitDepth::One,
+        3..=4 => BitDepth::Two,
+        5..=16 => BitDepth::Four,
+        17..=256 => BitDepth::Eight,
         _ => {
             let what = format!("a palette of {entries} entries");
             return Err(Error::unsupported(NAME, what, "PNG holds at most 256: write a .ktx2, or quantize to 256"));
