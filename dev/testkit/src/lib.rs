@@ -3,6 +3,8 @@
 
 mod data;
 mod random;
+mod skip;
 
-pub use data::{has_program, shared_data, shared_file, skip};
+pub use data::{shared_data, shared_file};
 pub use random::{Random, uniform_sphere};
+pub use skip::{has_program, skip};
