@@ -4,7 +4,9 @@
 mod data;
 mod npy;
 mod random;
+mod skip;
 
 pub use data::{has_program, shared_data, shared_file, skip};
 pub use npy::read_npy_f16;
 pub use random::{Random, uniform_sphere};
+pub use skip::{has_program, skip};
