@@ -6,7 +6,7 @@ mod npy;
 mod random;
 mod skip;
 
-pub use data::{has_program, shared_data, shared_file, skip};
+pub use data::{shared_data, shared_file};
 pub use npy::read_npy_f16;
 pub use random::{Random, uniform_sphere};
 pub use skip::{has_program, skip};

@@ -75,14 +75,14 @@ pub(crate) struct MaterialArgs {
     ///
     /// DIFFUSE and SPECULAR are colours, SHININESS is the exponent of the highlight:
     /// `--material 0,d08050,ffffff*0.04,12 --material 1,181818,ffffff*0.5,90`
-    #[arg(long = "material", value_name = "N,DIFFUSE[,SPECULAR[,SHININESS]]")]
-    materials: Vec<MaterialArg>,
+    #[arg(long, value_name = "N,DIFFUSE[,SPECULAR[,SHININESS]]")]
+    material: Vec<MaterialArg>,
 }
 
 impl MaterialArgs {
     /// Materials `0 … count − 1`: those that were given, and the default for the rest.
     pub(crate) fn resolve(&self, count: usize, default: impl Fn(usize) -> Material) -> Vec<Material> {
-        let given = |n: usize| self.materials.iter().rev().find(|m| usize::from(m.number) == n);
+        let given = |n: usize| self.material.iter().rev().find(|m| usize::from(m.number) == n);
         (0..count.max(1)).map(|n| given(n).map_or_else(|| default(n), |m| m.material)).collect()
     }
 }
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn the_last_material_of_a_number_counts() {
-        let args = MaterialArgs { materials: ["1,000000", "1,ffffff,ffffff*0.5,7"].map(|t| t.parse().unwrap()).into() };
+        let args = MaterialArgs { material: ["1,000000", "1,ffffff,ffffff*0.5,7"].map(|t| t.parse().unwrap()).into() };
         let all = args.resolve(3, |_| Material::MATTE_WHITE);
         assert_eq!((all[0], all[2]), (Material::MATTE_WHITE, Material::MATTE_WHITE));
         assert_eq!((all[1].diffuse, all[1].shininess), (LinearRgb::WHITE, 7.0));
