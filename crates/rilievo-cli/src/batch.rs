@@ -16,7 +16,7 @@ pub(crate) fn run(
     name: impl Fn(&Path) -> String,
     mut work: impl FnMut(&Path, &Path) -> Result<Outcome>,
 ) -> Result<Outcome> {
-    let is_folder = output.is_some_and(|o| o.is_dir());
+    let is_folder = output.is_some_and(Path::is_dir);
     if inputs.len() > 1 && output.is_some() && !is_folder {
         return Err(usage("with several inputs, -o names an existing folder"));
     }

@@ -1,4 +1,5 @@
 //! The reference renderer against geometry that is known without it.
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use glam::{DVec3, Vec2, Vec3};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material};

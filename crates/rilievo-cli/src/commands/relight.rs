@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use rilievo::color::Picture;
 use rilievo::light::{Lighting, Material, ShadeTable, relight};
-use rilievo::{Normal, NormalTable, QuantizedMap, Space};
+use rilievo::{Normal, NormalTable, QuantizedMap, Rgba8, Space};
 use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
 
 use crate::args::{ConventionArg, LightArgs, MaterialArgs, SpaceArg};
@@ -92,7 +92,7 @@ fn relit_palette(args: &Args, source: &Source) -> Result<Vec<u8>> {
         AnyTable::Tangent(table) => light_table(args, table, &args.light.lighting(0.0))?,
         AnyTable::Object(table) => light_table(args, table, &args.light.lighting(0.0))?,
     };
-    let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(|c| c.rgb()).collect();
+    let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
     Ok(png.relit(&colors)?)
 }
 
@@ -113,18 +113,14 @@ fn relit_map<S: Space>(args: &Args, map: &QuantizedMap<S>, input: &Path) -> Resu
     })
 }
 
-/// Lights a table as seen straight from the front. The flat map lies in the picture plane, so the table's own space
-/// is the space the lights are placed in.
+/// Lights a table as seen straight from the front.
 fn light_table<S: Space>(
     args: &Args,
     table: &NormalTable<S>,
     lighting: &Lighting<rilievo::World>,
 ) -> Result<ShadeTable> {
-    let lights = lighting.lights.iter();
-    let lights = lights.map(|l| rilievo::light::DirectionalLight { direction: l.direction.relabel(), color: l.color });
-    let lighting = Lighting { ambient: lighting.ambient, lights: lights.collect() };
     let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
     let materials = args.material.resolve(count, |_| Material::default());
-    let shades = ShadeTable::new(table, args.light.model(), &materials, &lighting, Normal::Z);
+    let shades = ShadeTable::new(table, args.light.model(), &materials, &lighting.facing(), Normal::Z);
     shades.map_err(|e| usage(e.to_string()))
 }

@@ -14,8 +14,8 @@ use rilievo::raster::{self, BaseColor, Detail, Method, Object, Scene, Target, Te
 use rilievo::sample::vase;
 use rilievo::surface::{Camera, Deflect, Deflected, Mesh, deflect_heights};
 use rilievo::{
-    Convention, Edges, LinearRgb, MipChain, Normal, NormalMap, Object as ObjectSpace, Pose, Progress, Space, Tangent,
-    World,
+    Convention, Edges, LinearRgb, MipChain, Normal, NormalMap, Object as ObjectSpace, Pose, Progress, Rgba8, Space,
+    Tangent, World,
 };
 use rilievo_io::{self as io, PalettePng, Source};
 
@@ -132,17 +132,9 @@ impl<'a> Demo<'a> {
             let started = Instant::now();
             let png = PalettePng::parse(&source)?;
             let materials = vase::materials_colored();
-            let local = Lighting {
-                ambient: lights.ambient,
-                lights: lights
-                    .lights
-                    .iter()
-                    .map(|l| DirectionalLight { direction: l.direction.relabel(), color: l.color })
-                    .collect(),
-            };
             let table = quantized.map.table();
-            let shades = ShadeTable::new(table, LightingModel::BlinnPhong, &materials, &local, Normal::Z)?;
-            let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(|c| c.rgb()).collect();
+            let shades = ShadeTable::new(table, LightingModel::BlinnPhong, &materials, &lights.facing(), Normal::Z)?;
+            let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
             let relit = png.relit(&colors)?;
             microseconds.push(started.elapsed().as_secs_f64() * 1e6);
             let file = format!("flat_lit_{azimuth:+03.0}.png");

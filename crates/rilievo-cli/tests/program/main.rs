@@ -1,4 +1,5 @@
 //! The real program, run as a user runs it: files in a fresh folder, exit codes, stdout, stderr.
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 mod compare;
 mod hostile;

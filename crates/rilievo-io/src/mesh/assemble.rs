@@ -112,7 +112,9 @@ impl<'a> Assembly<'a> {
             self.warn(format!("{} faces of fewer than three corners were left out.", self.small_faces));
         }
         let mesh = Mesh::new(self.parts).map_err(|e| Error::invalid(self.name, e))?;
-        if mesh.dropped_triangles() > 0 {
+        if mesh.triangles().is_empty() {
+            self.warnings.push("No triangle has an area: there is nothing to be seen.".to_owned());
+        } else if mesh.dropped_triangles() > 0 {
             self.warnings.push(format!("{} triangles without an area were left out.", mesh.dropped_triangles()));
         }
         Ok(MeshFile { mesh, warnings: self.warnings })

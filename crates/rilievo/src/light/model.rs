@@ -32,6 +32,15 @@ impl Lighting<World> {
     }
 }
 
+impl Lighting<World> {
+    /// The same light on a flat map that lies in the picture plane, whose own axes are the world's.
+    pub fn facing<S: Space>(&self) -> Lighting<S> {
+        let lights = self.lights.iter();
+        let lights = lights.map(|l| DirectionalLight { direction: l.direction.relabel(), color: l.color });
+        Lighting { ambient: self.ambient, lights: lights.collect() }
+    }
+}
+
 /// How a surface answers light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]

@@ -7,9 +7,10 @@ use glam::Vec3;
 
 use super::{Normal, Space};
 
-fn encode(c: f32, max: f32) -> f32 {
-    // floor(x + 0.5), never below 0 or above max even for a component a few ulps past one.
-    ((c + 1.0) * 0.5 * max + 0.5).floor().clamp(0.0, max)
+fn encode(c: f32, max: f64) -> f64 {
+    // In f64: near 65 535 a step of f32 is 0.008 of a code, and writers would disagree at the borders of cells.
+    // Never below 0 or above max, even for a component a few ulps past one.
+    ((f64::from(c) + 1.0) * 0.5 * max + 0.5).floor().clamp(0.0, max)
 }
 
 /// A normal as an 8-bit colour.

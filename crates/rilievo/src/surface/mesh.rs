@@ -45,15 +45,14 @@ impl Mesh {
     /// faces of opposite winding cancel, the normal is that of the vertex's first face. A vertex of no triangle gets +Z.
     ///
     /// # Errors
-    /// - [`Error::Missing`] if there are no triangles, or none that has an area;
+    /// - [`Error::Missing`] if there are no triangles (a mesh of triangles without an area is valid, and invisible);
     /// - [`Error::Length`] if normals or texture coordinates are neither empty nor one per vertex;
     /// - [`Error::NotFinite`] for a position or texture coordinate that is NaN or infinite;
     /// - [`Error::IndexRange`] for a triangle of a vertex that does not exist.
     pub fn new(parts: MeshParts) -> Result<Self> {
         let MeshParts { positions, mut normals, uvs, mut triangles } = parts;
-        let remedy = "give a mesh with faces";
         if triangles.is_empty() {
-            return Err(Error::Missing { what: "triangles", remedy });
+            return Err(Error::Missing { what: "triangles", remedy: "give a mesh with faces" });
         }
         for (what, actual) in [("vertex normals", normals.len()), ("texture coordinates", uvs.len())] {
             if actual != 0 && actual != positions.len() {
@@ -74,9 +73,6 @@ impl Mesh {
         }
         let given = triangles.len();
         triangles.retain(|t| !is_degenerate(corners(&positions, t)));
-        if triangles.is_empty() {
-            return Err(Error::Missing { what: "triangles with an area", remedy });
-        }
         normals::complete(&mut normals, &positions, &triangles);
         let dropped_triangles = given - triangles.len();
         Ok(Self { positions, normals, uvs, tangents: Vec::new(), triangles, dropped_triangles })
@@ -157,16 +153,27 @@ impl Mesh {
         (same_normal && same_tangent).then(|| Frame::from_mikk(normal, tangent))
     }
 
-    /// Centre of the bounding box and radius of the sphere about it, of all vertices that triangles use.
+    /// Centre of the bounding box and radius of the sphere about it, of all vertices that triangles use (of all there are
+    /// if no triangle has an area). The radius is positive.
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
-        let used = || self.triangles.iter().flatten().map(|&i| self.positions[i as usize]);
-        let low = used().fold(Vec3::INFINITY, Vec3::min).as_dvec3();
-        let high = used().fold(Vec3::NEG_INFINITY, Vec3::max).as_dvec3();
-        let center = ((low + high) * 0.5).as_vec3();
-        let squared = used().map(|p| (p.as_dvec3() - center.as_dvec3()).length_squared()).fold(0.0, f64::max);
-        // Rounded up, so that the sphere does hold them.
-        (center, (squared.sqrt() as f32).next_up().min(f32::MAX))
+        let used = self.triangles.iter().flatten().map(|&i| self.positions[i as usize]);
+        if self.triangles.is_empty() {
+            return sphere_about(self.positions.iter().copied());
+        }
+        sphere_about(used)
     }
+}
+
+/// Centre of the bounding box of some points, and the radius about it that holds them.
+fn sphere_about(points: impl Iterator<Item = Vec3> + Clone) -> (Vec3, f32) {
+    /// Of a single point: large enough for a camera to stand off it.
+    const SMALLEST: f32 = 1e-30;
+    let low = points.clone().fold(Vec3::INFINITY, Vec3::min).as_dvec3();
+    let high = points.clone().fold(Vec3::NEG_INFINITY, Vec3::max).as_dvec3();
+    let center = ((low + high) * 0.5).as_vec3();
+    let squared = points.map(|p| (p.as_dvec3() - center.as_dvec3()).length_squared()).fold(0.0, f64::max);
+    // Rounded up, so that the sphere does hold them.
+    (center, (squared.sqrt() as f32).next_up().clamp(SMALLEST, f32::MAX))
 }
 
 /// The corners of a triangle in f64: edges between them are then exact for all but absurd ranges, and so areas of
@@ -251,7 +258,10 @@ mod tests {
         let mesh = Mesh::new(parts).unwrap();
         assert_eq!((mesh.dropped_triangles(), mesh.triangles()), (3, &[[0, 3, 2], [0, 2, 1]][..]));
         let flat = MeshParts { triangles: vec![[0, 0, 1], [2, 2, 2]], ..quad() };
-        assert!(matches!(Mesh::new(flat), Err(Error::Missing { what: "triangles with an area", .. })));
+        let flat = Mesh::new(flat).unwrap();
+        assert_eq!((flat.dropped_triangles(), flat.triangles().len()), (2, 0));
+        let (center, radius) = flat.bounding_sphere();
+        assert!(center.is_finite() && radius > 0.0);
     }
 
     #[test]
