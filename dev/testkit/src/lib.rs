@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod data;
+pub mod golden;
 mod npy;
 mod random;
 mod skip;
