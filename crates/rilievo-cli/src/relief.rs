@@ -7,11 +7,12 @@ use anyhow::{Context, Result};
 use clap::Args;
 use glam::Vec2;
 use rilievo::light::Material;
+use rilievo::normal::{NormalLevels, NormalMap, normal_levels};
 use rilievo::quantize::{self, Effort, Options};
 use rilievo::raster::{BaseColor, Detail, Method};
 use rilievo::sample::vase;
 use rilievo::surface::{Deflected, Mesh, deflect_heights, deflect_normals};
-use rilievo::{Grid, LinearRgb, MaterialMap, MipChain, Normal, Object, QuantizedMap, Tangent, mip};
+use rilievo::{Grid, LinearRgb, MaterialMap, MipChain, Object, QuantizedMap, Tangent};
 use rilievo_io::{AnyIndexed, ImportAs, SpaceKind};
 
 use crate::args::{ConventionArg, EffortArg, HeightArgs, OntoArgs, SpaceArg};
@@ -97,8 +98,8 @@ impl DefaultMaterials {
 
 enum OwnedDetail {
     Smooth,
-    Tangent { normals: MipChain<Normal<Tangent>>, repeat: [f32; 2], materials: Option<MipChain<u8>> },
-    Object { normals: MipChain<Normal<Object>>, materials: Option<MipChain<u8>> },
+    Tangent { levels: NormalLevels<Tangent>, repeat: [f32; 2] },
+    Object { levels: NormalLevels<Object> },
     Indexed(Box<QuantizedMap<Object>>),
 }
 
@@ -107,10 +108,14 @@ impl Relief {
     pub(crate) fn detail(&self) -> Detail<'_> {
         match &self.detail {
             OwnedDetail::Smooth => Detail::Smooth,
-            OwnedDetail::Tangent { normals, repeat, materials } => {
-                Detail::Tangent { normals, repeat: Vec2::from_array(*repeat), materials: materials.as_ref() }
+            OwnedDetail::Tangent { levels, repeat } => Detail::Tangent {
+                normals: &levels.normals,
+                repeat: Vec2::from_array(*repeat),
+                materials: levels.materials.as_ref(),
+            },
+            OwnedDetail::Object { levels } => {
+                Detail::Object { normals: &levels.normals, materials: levels.materials.as_ref() }
             }
-            OwnedDetail::Object { normals, materials } => Detail::Object { normals, materials: materials.as_ref() },
             OwnedDetail::Indexed(map) => Detail::Indexed(map),
         }
     }
@@ -125,7 +130,8 @@ impl Relief {
         let highest = |m: &Option<MipChain<u8>>| m.as_ref().and_then(|m| m.base().texels().iter().max().copied());
         let highest = match &self.detail {
             OwnedDetail::Smooth => None,
-            OwnedDetail::Tangent { materials, .. } | OwnedDetail::Object { materials, .. } => highest(materials),
+            OwnedDetail::Tangent { levels, .. } => highest(&levels.materials),
+            OwnedDetail::Object { levels } => highest(&levels.materials),
             OwnedDetail::Indexed(map) => map.table().spans().last().map(|s| s.material),
         };
         usize::from(highest.unwrap_or(0)) + 1
@@ -137,10 +143,10 @@ enum Source {
     Nothing,
     /// Normals of the object, where they are true, and materials.
     Object {
-        normals: Grid<Normal<Object>>,
+        normals: NormalMap<Object>,
         covered: Option<Grid<bool>>,
     },
-    Tangent(Grid<Normal<Tangent>>),
+    Tangent(NormalMap<Tangent>),
     Indexed(AnyIndexed),
 }
 
@@ -238,8 +244,7 @@ impl ReliefArgs {
             }
             Source::Tangent(normals) => {
                 let materials = fitted(materials, normals.size(), "normal map")?;
-                let normals = MipChain::build(normals, Normal::mean);
-                Ok((OwnedDetail::Tangent { normals, repeat, materials: materials.map(levels) }, None))
+                Ok((OwnedDetail::Tangent { levels: normal_levels(normals, materials, None)?, repeat }, None))
             }
             Source::Object { normals, covered } if method == Method::Table => {
                 let materials = fitted(materials, normals.size(), "object-space map")?;
@@ -259,10 +264,9 @@ impl ReliefArgs {
                 let report = QuantizedReport { entries, error: quantized.error, seconds };
                 Ok((OwnedDetail::Indexed(Box::new(quantized.map)), Some(report)))
             }
-            Source::Object { normals, .. } => {
+            Source::Object { normals, covered } => {
                 let materials = fitted(materials, normals.size(), "object-space map")?;
-                let normals = MipChain::build(normals, Normal::mean);
-                Ok((OwnedDetail::Object { normals, materials: materials.map(levels) }, None))
+                Ok((OwnedDetail::Object { levels: normal_levels(normals, materials, covered.as_ref())? }, None))
             }
         }
     }
@@ -294,8 +298,4 @@ fn fitted(materials: Option<MaterialMap>, size: (u32, u32), what: &str) -> Resul
     Err(usage(format!(
         "the material map is {mw} x {mh}, but the {what} is {w} x {h}; give both the same size (see --map-size)"
     )))
-}
-
-fn levels(materials: MaterialMap) -> MipChain<u8> {
-    MipChain::build(materials, mip::majority)
 }

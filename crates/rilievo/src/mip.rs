@@ -61,16 +61,6 @@ impl<T> MipChain<T> {
     }
 }
 
-/// The most frequent value of a block, the lowest of several; for levels of maps that cannot be averaged.
-///
-/// # Panics
-/// If the block is empty.
-pub fn majority(block: &[&u8]) -> u8 {
-    let votes = |v: u8| block.iter().filter(|&&&other| other == v).count();
-    let best = block.iter().map(|&&v| (votes(v), std::cmp::Reverse(v))).max();
-    best.expect("a block is never empty").1.0
-}
-
 /// The texels of a side of length `above` that texel `i` of the halved side covers.
 pub(crate) fn span(i: u32, above: u32) -> std::ops::Range<u32> {
     let half = (above / 2).max(1);
@@ -105,12 +95,6 @@ mod tests {
             assert_eq!(chain.levels().last().unwrap().texels(), [total], "{w}×{h}");
             assert!(MipChain::from_levels(chain.levels().to_vec()).is_ok());
         }
-    }
-
-    #[test]
-    fn majority_takes_the_lowest_of_equals() {
-        assert_eq!(majority(&[&3, &1, &3, &1]), 1);
-        assert_eq!(majority(&[&3, &1, &3, &3, &1, &1, &3, &0, &0]), 3);
     }
 
     #[test]

@@ -15,15 +15,7 @@ fn light_from(direction: Vec3) -> Lighting<rilievo::World> {
 }
 
 fn smooth(mesh: &Mesh) -> Object<'_> {
-    Object {
-        mesh,
-        pose: Pose::IDENTITY,
-        detail: Detail::Smooth,
-        base_color: None,
-        materials: &MATTE,
-        model: LightingModel::Lambert,
-        double_sided: false,
-    }
+    Object { model: LightingModel::Lambert, ..Object::new(mesh, Detail::Smooth, &MATTE) }
 }
 
 fn render(scene: &Scene<'_>, method: Method, filter: TextureFilter, size: (u32, u32)) -> Target {

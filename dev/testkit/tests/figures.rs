@@ -5,7 +5,7 @@
 //!
 //! Where the table loses: with the nearest texel and no filtering the table method alone costs little (49 to 58 dB
 //! against the reference on the same quantised map, all of it the constant view direction). With filtering it costs
-//! most of the error (33 to 39 dB): the table mixes colours, the reference mixes normals and lights the mean once. The
+//! most of the error (34 to 41 dB): the table mixes colours, the reference mixes normals and lights the mean once. The
 //! difference pictures show it along ridges and at the terminator, where a pixel sees both lit and unlit texels.
 #![expect(clippy::unwrap_used, clippy::print_stderr, reason = "tests fail loudly and tell their figures")]
 
@@ -14,6 +14,7 @@ use rilievo::color::Picture;
 use rilievo::height::{Filter, HeightMap, to_normals};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable, relight};
 use rilievo::measure::{angle_stats, picture_stats};
+use rilievo::normal::normal_levels;
 use rilievo::progress::Silent;
 use rilievo::quantize::{Options, Quantized, quantize};
 use rilievo::raster::{Detail, Method, Object, Scene, Target, TextureFilter, draw, prepare};
@@ -45,7 +46,7 @@ fn lighting<S: Space>() -> Lighting<S> {
     let (azimuth, elevation) = ((-45.0f32).to_radians(), 40.0f32.to_radians());
     let toward = Vec3::new(elevation.cos() * azimuth.sin(), elevation.sin(), elevation.cos() * azimuth.cos());
     let lights = vec![DirectionalLight { direction: Normal::new(toward).unwrap(), color: LinearRgb::WHITE }];
-    Lighting { ambient: LinearRgb::gray(0.06), lights }
+    Lighting { ambient: LinearRgb::gray(0.1), lights }
 }
 
 /// A relief on a mesh, as it is and quantised.
@@ -61,7 +62,8 @@ impl Relief {
         let options =
             Options { entries: ENTRIES, covered: Some(&bent.covered), mip_levels: true, ..Options::default() };
         let quantized = quantize(&bent.normals, &options, &Silent).unwrap();
-        Self { mesh, normals: MipChain::build(bent.normals, Normal::mean), quantized }
+        let levels = normal_levels(bent.normals, None, Some(&bent.covered)).unwrap();
+        Self { mesh, normals: levels.normals, quantized }
     }
 
     fn unquantized(&self) -> Detail<'_> {
@@ -128,8 +130,8 @@ fn covered_share(target: &Target) -> f64 {
 /// The world on a globe. Depth 0.01, as in the program's own example, raises mountains some 35 times if
 /// white is the highest peak.
 ///
-/// The target is 38 dB over the whole picture. Measured: 37.64 dB, so it is missed by 0.36 dB; quantisation alone gives
-/// 42.3 dB, the table method alone 39.4 dB.
+/// The target is 38 dB over the whole picture. Measured: 38.82 dB; quantisation alone gives 43.3 dB, the table method
+/// alone 40.6 dB.
 #[test]
 fn earth_on_a_sphere_by_table() {
     let Some(heights) = heights("height/earth-topology.png") else { return };
@@ -137,10 +139,7 @@ fn earth_on_a_sphere_by_table() {
     let options = Deflect::new(map.heights().size());
     let relief = Relief::new(shapes::sphere(64, 32).unwrap(), &map, Edges::Wrap, &options);
     let whole = relief.measure("earth on a sphere");
-    if whole < 38.0 {
-        eprintln!("earth on a sphere: the target of 38 dB is missed by {:.2} dB", 38.0 - whole);
-    }
-    assert!(whole >= 36.6, "{whole} dB");
+    assert!(whole >= 38.0, "{whole} dB");
 }
 
 #[test]
@@ -150,7 +149,7 @@ fn bricks_on_a_cube_by_table() {
     let options = Deflect { repeat: shapes::CUBE_ATLAS_REPEAT, ..Deflect::new((1536, 1024)) };
     let relief = Relief::new(shapes::cube(shapes::CubeUvs::Atlas).unwrap(), &map, Edges::Wrap, &options);
     let whole = relief.measure("bricks on a cube");
-    assert!(whole >= 33.7, "{whole} dB");
+    assert!(whole >= 35.0, "{whole} dB");
 }
 
 #[test]
@@ -161,7 +160,7 @@ fn bricks_on_spot_by_table() {
     let map = HeightMap::new(heights, 0.05).unwrap();
     let options = Deflect { repeat: [4.0, 4.0], ..Deflect::new((1024, 1024)) };
     let whole = Relief::new(mesh, &map, Edges::Wrap, &options).measure("bricks on spot");
-    assert!(whole >= 31.4, "{whole} dB");
+    assert!(whole >= 32.6, "{whole} dB");
 }
 
 /// Terrain of 344 × 403 cells of 3 arc-seconds (about 75 × 92 m here): 840 m of relief on 26 km are 0.032;
@@ -173,7 +172,7 @@ fn terrain_on_a_plane_by_table() {
     let (width, height) = map.heights().size();
     let mesh = shapes::plane(width as f32 / height as f32).unwrap();
     let whole = Relief::new(mesh, &map, Edges::Clamp, &Deflect::new((width, height))).measure("terrain on a plane");
-    assert!(whole >= 37.3, "{whole} dB");
+    assert!(whole >= 38.7, "{whole} dB");
 }
 
 fn bricks() -> Option<Grid<Normal<Tangent>>> {
@@ -209,5 +208,5 @@ fn palette_relighting_is_relighting() {
     assert_eq!(shown, relight(&map, &shades, None).unwrap());
     // Bricks and joints: not one colour, which anything would reproduce.
     let (low, high) = shown.texels().iter().fold((255, 0), |(l, h), p| (p.g.min(l), p.g.max(h)));
-    assert!(low < 80 && high > 200, "{low} … {high}");
+    assert!(low < 100 && high > 200, "{low} … {high}");
 }

@@ -20,7 +20,7 @@ pub(crate) struct LightArgs {
     #[arg(long = "light", value_name = "AZ,EL[,COLOR]", allow_hyphen_values = true, default_values = ["-45,40"])]
     pub(crate) lights: Vec<LightArg>,
     /// Light from everywhere.
-    #[arg(long, value_name = "COLOR", default_value = "ffffff*0.06")]
+    #[arg(long, value_name = "COLOR", default_value = "ffffff*0.1")]
     pub(crate) ambient: ColorArg,
     /// How the surface answers light.
     #[arg(long, value_enum, default_value_t = ModelArg::BlinnPhong)]

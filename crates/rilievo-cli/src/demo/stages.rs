@@ -9,6 +9,7 @@ use rilievo::color::Picture;
 use rilievo::height::{Filter, to_normals};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, ShadeTable};
 use rilievo::measure::{DEFAULT_PIXELS_PER_DEGREE, flip_mean, picture_stats};
+use rilievo::normal::normal_levels;
 use rilievo::quantize::{Effort, Options, Quantized, fejes_toth_rms_rad, quantize};
 use rilievo::raster::{self, BaseColor, Detail, Method, Object, Scene, Target, TextureFilter};
 use rilievo::sample::vase;
@@ -127,7 +128,7 @@ impl<'a> Demo<'a> {
             vec![self.write("flat_256.png", &indexed, format!("256 normals, {}", degrees(&quantized)))?];
         let source = Source::from_bytes("flat_256.png", indexed);
         let mut microseconds = Vec::new();
-        for azimuth in [-75.0f32, 0.0, 75.0] {
+        for (side, azimuth) in [("left", -75.0f32), ("front", 0.0), ("right", 75.0)] {
             let lights = lights(azimuth, 25.0);
             let started = Instant::now();
             let png = PalettePng::parse(&source)?;
@@ -137,8 +138,7 @@ impl<'a> Demo<'a> {
             let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
             let relit = png.relit(&colors)?;
             microseconds.push(started.elapsed().as_secs_f64() * 1e6);
-            let file = format!("flat_lit_{azimuth:+03.0}.png");
-            entries.push(self.write(&file, &relit, format!("light from {azimuth:+.0}°"))?);
+            entries.push(self.write(&format!("flat_lit_{side}.png"), &relit, format!("light from the {side}"))?);
         }
         microseconds.sort_by(f64::total_cmp);
         let text = format!(
@@ -165,7 +165,7 @@ impl<'a> Demo<'a> {
     fn quantise(&self, deflected: &Deflected, bars: &Bars) -> Result<(Vec<Quantized<ObjectSpace>>, Section)> {
         let mut entries = Vec::new();
         let mut tables = Vec::new();
-        let mut text = String::from("One table for normals and materials together. ");
+        let mut text = String::from("One table for normals and materials together: the two share its entries. ");
         for k in [256, 2048] {
             let options = Options {
                 entries: k,
@@ -178,7 +178,7 @@ impl<'a> Demo<'a> {
             let quantized = quantize(&deflected.normals, &options, bars)?;
             let seconds = started.elapsed().as_secs_f64();
             text += &format!(
-                "K = {k}: {}, {seconds:.2} s (a uniform sphere could not do better than {:.2}°). ",
+                "K = {k}: {}, {seconds:.2} s (one material on a uniform sphere could not do better than {:.2}°). ",
                 degrees(&quantized),
                 fejes_toth_rms_rad(k).to_degrees()
             );
@@ -202,16 +202,15 @@ impl<'a> Demo<'a> {
     }
 
     fn pictures(&self, bent: &Deflected, tables: &[Quantized<ObjectSpace>], bars: &Bars) -> Result<Section> {
-        let materials_levels = MipChain::build(self.maps.materials.clone(), rilievo::mip::majority);
-        let normals = MipChain::build(bent.normals.clone(), Normal::mean);
-        let exact_detail = Detail::Object { normals: &normals, materials: Some(&materials_levels) };
+        let levels = normal_levels(bent.normals.clone(), Some(self.maps.materials.clone()), Some(&bent.covered))?;
+        let exact_detail = Detail::Object { normals: &levels.normals, materials: levels.materials.as_ref() };
         let azimuths = [-80.0, -40.0, 0.0, 40.0, 80.0];
         bars.begin("stills", azimuths.len() as u64 + 2);
         let mut entries = Vec::new();
         let mut stills = Vec::new();
-        for azimuth in azimuths {
+        for (i, azimuth) in azimuths.into_iter().enumerate() {
             let still = self.render(Detail::Indexed(&tables[1].map), Method::Table, azimuth, 0.0, STILL)?;
-            let file = format!("still_{azimuth:+03.0}.png");
+            let file = format!("still_{}.png", i + 1);
             entries.push(self.write(&file, &io::encode_picture_png(&still)?, format!("light from {azimuth:+.0}°"))?);
             stills.push(still);
             bars.advance(1);

@@ -3,6 +3,7 @@
 mod blue_noise;
 mod dither;
 mod encode;
+mod levels;
 
 use std::marker::PhantomData;
 
@@ -10,6 +11,7 @@ use glam::Vec3;
 
 pub use dither::{DitherU8, encode_map_u8};
 pub use encode::{decode_u8, decode_u16, encode_u8, encode_u16};
+pub use levels::{NormalLevels, normal_levels};
 
 use crate::grid::Grid;
 
@@ -77,14 +79,6 @@ impl<S: Space> Normal<S> {
     /// The direction of `v`, or `fallback` if it has none.
     pub fn new_or(v: Vec3, fallback: Self) -> Self {
         Self::new(v).unwrap_or(fallback)
-    }
-
-    /// The mean direction of a block, for mip levels; the first where they cancel out.
-    ///
-    /// # Panics
-    /// If the block is empty.
-    pub fn mean(block: &[&Self]) -> Self {
-        Self::new_or(block.iter().map(|n| n.0).sum(), *block[0])
     }
 
     /// Takes back a vector that came out of a normal: the same bits, where [`Normal::new`] may change the last one.

@@ -108,31 +108,36 @@ impl ScreenTriangle {
         self.corners.iter().zip(lambda).map(|(c, l)| c.position.z / c.position.w * l).sum::<f64>() as f32
     }
 
-    /// Perspective-correct weights of the three vertices at screen barycentrics `lambda`.
-    fn weights(&self, lambda: [f64; 3]) -> [f64; 3] {
-        let mut weights = [0.0; 3];
-        let mut total = 0.0;
+    /// Sums of `lambda` over the corners, each divided by its w: numerators of the perspective-correct weights of the three
+    /// vertices, and their common denominator. All are linear on the screen.
+    fn over_w(&self, lambda: [f64; 3]) -> ([f64; 3], f64) {
+        let (mut numerators, mut denominator) = ([0.0; 3], 0.0);
         for (corner, l) in self.corners.iter().zip(lambda) {
             let share = l / corner.position.w;
-            total += share;
-            for (w, c) in weights.iter_mut().zip(corner.weights) {
-                *w += share * c;
+            denominator += share;
+            for (n, c) in numerators.iter_mut().zip(corner.weights) {
+                *n += share * c;
             }
         }
-        weights.map(|w| w / total)
+        (numerators, denominator)
     }
 
     fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
-        let weights = self.weights(lambda);
+        let (numerators, denominator) = self.over_w(lambda);
+        let weights = numerators.map(|n| n / denominator);
+        // d(n / d) = (dn − n / d · dd) / d: at the pixel itself, because a step to the next pixel may leave the triangle
+        // and meet the horizon of its plane.
+        let change = |lambda_change: [f64; 3]| {
+            let (dn, dd) = self.over_w(lambda_change);
+            [0, 1, 2].map(|k| (dn[k] - weights[k] * dd) / denominator)
+        };
         let mixed = |w: [f64; 3]| w.map(|w| w as f32);
         let uv = |w: [f64; 3]| mix(mesh.uvs(), self.vertices, mixed(w), Vec2::ZERO);
-        let shifted = |d: [f64; 3]| self.weights([lambda[0] + d[0], lambda[1] + d[1], lambda[2] + d[2]]);
-        let here = uv(weights);
         Fragment {
             footprint: Footprint {
-                uv: here,
-                uv_dx: uv(shifted(self.lambda_dx)) - here,
-                uv_dy: uv(shifted(self.lambda_dy)) - here,
+                uv: uv(weights),
+                uv_dx: uv(change(self.lambda_dx)),
+                uv_dy: uv(change(self.lambda_dy)),
             },
             position: mix(mesh.positions(), self.vertices, mixed(weights), Vec3::ZERO),
             normal: mix(mesh.normals(), self.vertices, mixed(weights), Vec3::ZERO),

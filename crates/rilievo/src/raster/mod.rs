@@ -4,19 +4,11 @@
 //! source: [`prepare`] lights the tables (per object, a few thousand evaluations), [`draw`] fills pixels.
 //!
 //! ```
-//! use rilievo::{raster, surface, light, LinearRgb, Normal, Pose};
+//! use rilievo::{LinearRgb, Normal, light, raster, surface};
 //!
 //! let mesh = surface::shapes::sphere(32, 16)?;
 //! let materials = [light::Material::default()];
-//! let object = raster::Object {
-//!     mesh: &mesh,
-//!     pose: Pose::IDENTITY,
-//!     detail: raster::Detail::Smooth,
-//!     base_color: None,
-//!     materials: &materials,
-//!     model: light::LightingModel::BlinnPhong,
-//!     double_sided: false,
-//! };
+//! let object = raster::Object::new(&mesh, raster::Detail::Smooth, &materials);
 //! let camera = surface::Camera::orbit(mesh.bounding_sphere(), 0.0, 0.3, 1.1, 0.6, 1.0)?;
 //! let scene = raster::Scene {
 //!     objects: vec![object],

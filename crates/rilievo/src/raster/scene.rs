@@ -68,6 +68,14 @@ pub struct Object<'a> {
     pub double_sided: bool,
 }
 
+impl<'a> Object<'a> {
+    /// An object at the origin of the world, without a base colour, lit by the default model, back faces hidden.
+    pub fn new(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Self {
+        let (pose, model) = (Pose::IDENTITY, LightingModel::default());
+        Self { mesh, pose, detail, base_color: None, materials, model, double_sided: false }
+    }
+}
+
 /// Objects, lights and a camera.
 #[derive(Debug, Clone)]
 pub struct Scene<'a> {

@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 use rilievo::color::Picture;
 use rilievo::height::{Filter, HeightMap, to_normals};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable, relight};
+use rilievo::normal::normal_levels;
 use rilievo::normal::{DitherU8, encode_map_u8};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Effort, Options, Quantized, quantize};
@@ -77,7 +78,7 @@ pub(crate) fn torus(shading: Shading) -> Picture {
     let camera = camera(&mesh, 0.0, 35.0);
     match shading {
         Shading::Exact => {
-            let normals = MipChain::build(bent.normals, Normal::mean);
+            let normals = normal_levels(bent.normals, None, Some(&bent.covered)).unwrap().normals;
             let detail = Detail::Object { normals: &normals, materials: None };
             render(object(&mesh, detail, &materials), camera, Method::Exact, (144, 128))
         }
@@ -175,7 +176,7 @@ pub(crate) fn mirrored_tangent() -> Picture {
     };
     let mesh = Mesh::new(parts).unwrap().with_tangents().unwrap();
     let map = HeightMap::new(relief::letter_and_dome(64), 0.05).unwrap();
-    let normals = MipChain::build(to_normals(&map, Filter::Plane4, Edges::Wrap), Normal::mean);
+    let normals = normal_levels(to_normals(&map, Filter::Plane4, Edges::Wrap), None, None).unwrap().normals;
     let materials = [Material::default()];
     let detail = Detail::Tangent { normals: &normals, repeat: Vec2::ONE, materials: None };
     let camera = Camera::new(Vec3::new(0.0, -0.5, 2.4), Vec3::ZERO, Vec3::Y, 0.5, 0.1, 10.0).unwrap();
