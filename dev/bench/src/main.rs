@@ -1,2 +1,74 @@
-//! Benchmarks against peers.
-fn main() {}
+//! Benchmarks against peers: `cargo xtask bench [NAME] [--json] [--rounds N]`.
+//!
+//! Figures are ratios within one run: both sides on one thread, in processor time, in turns, medians over the rounds.
+//! So they bear a busy machine better than bare times do; no test depends on any of them.
+#![forbid(unsafe_code)]
+
+mod clock;
+mod harness;
+mod height;
+mod inputs;
+mod machine;
+mod quantize;
+mod relight;
+mod render;
+mod report;
+
+use anyhow::{Context, Result};
+use clap::Parser;
+use clap::builder::PossibleValuesParser;
+use report::Report;
+use std::num::NonZeroUsize;
+
+/// A group of cases, in a file of its own.
+struct Group {
+    name: &'static str,
+    what: &'static str,
+    run: fn(rounds: usize, &mut Report) -> Result<()>,
+}
+
+const GROUPS: [Group; 4] = [
+    Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
+    Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
+    Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
+    Group { name: "render", what: "the reference renderer: table against exact", run: render::run },
+];
+
+/// Measure against peers, on one thread.
+#[derive(Parser)]
+#[command(name = "cargo xtask bench --")]
+struct Arguments {
+    /// What to measure; without it, everything.
+    #[arg(value_parser = PossibleValuesParser::new(GROUPS.iter().map(|g| g.name)))]
+    name: Option<String>,
+    /// One JSON object a line, on stdout.
+    #[arg(long)]
+    json: bool,
+    /// How often each side of a timed case runs; the median counts.
+    #[arg(long, default_value = "7")]
+    rounds: NonZeroUsize,
+    /// Say what can be measured, and stop.
+    #[arg(long)]
+    list: bool,
+}
+
+fn main() -> Result<()> {
+    let arguments = Arguments::parse();
+    let mut report = Report::new(arguments.json);
+    if arguments.list {
+        return GROUPS.iter().try_for_each(|g| report.line(&format!("{:<9} {}", g.name, g.what)));
+    }
+    // The main thread is the pool: the clock sees all of the work and no other thread sleeps and wakes.
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .use_current_thread()
+        .build_global()
+        .context("cannot confine the work to one thread")?;
+    let rounds = arguments.rounds.get();
+    report.remark(&machine::describe(rounds));
+    report.heading()?;
+    for group in GROUPS.iter().filter(|g| arguments.name.as_deref().is_none_or(|name| name == g.name)) {
+        (group.run)(rounds, &mut report).with_context(|| format!("bench {}", group.name))?;
+    }
+    report.close()
+}

@@ -6,21 +6,25 @@ use clap::Args;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// What to measure; without it, everything.
+    /// What to measure; without it, everything. See --list.
     name: Option<String>,
     /// One JSON object a line, on stdout.
     #[arg(long)]
     json: bool,
-    /// Passed on to the benchmark.
-    #[arg(last = true)]
-    rest: Vec<String>,
+    /// How often each side of a timed case runs; the median counts.
+    #[arg(long, value_name = "N")]
+    rounds: Option<u32>,
+    /// Say what can be measured, and stop.
+    #[arg(long)]
+    list: bool,
 }
 
 pub(crate) fn run(options: &Options) -> Result<()> {
     Run::cargo()
-        .args(["run", "--release", "--package", "bench", "--"])
+        .args(["run", "--release", "--quiet", "--package", "bench", "--"])
         .args(&options.name)
         .args(options.json.then_some("--json"))
-        .args(&options.rest)
+        .args(options.list.then_some("--list"))
+        .args(options.rounds.map(|rounds| format!("--rounds={rounds}")))
         .wait()
 }
