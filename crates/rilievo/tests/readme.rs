@@ -10,6 +10,7 @@ use rilievo::surface::{Camera, Deflect, deflect_heights, shapes};
 use rilievo::{Edges, Grid, LinearRgb, Normal, Pose};
 
 #[rustfmt::skip]
+#[expect(clippy::print_stdout, reason = "as the README shows it")]
 fn pipeline() -> rilievo::Result<()> {
     let materials = [Material::default()];
 

@@ -6,14 +6,15 @@ use crate::report::{Case, Report, Unit};
 use anyhow::Result;
 use rilievo::color::Picture;
 use rilievo::height::{Filter, HeightMap};
-use rilievo::light::{LightingModel, Material};
+use rilievo::light::Material;
 use rilievo::measure::picture_stats;
+use rilievo::normal::{NormalLevels, normal_levels};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Options, Quantized, quantize};
 use rilievo::raster::{self, Detail, Method, Scene, Target, TextureFilter};
 use rilievo::sample::vase;
 use rilievo::surface::{Camera, Deflect, Deflected, Mesh, deflect_heights, shapes};
-use rilievo::{Edges, LinearRgb, MaterialMap, MipChain, Normal, Object, Pose, mip};
+use rilievo::{Edges, LinearRgb, MaterialMap, Object};
 
 /// Width and height of the pictures.
 const SIDE: u32 = 512;
@@ -25,8 +26,7 @@ const BACKGROUND: LinearRgb = LinearRgb::gray(0.5);
 struct Subject {
     name: &'static str,
     mesh: Mesh,
-    normals: MipChain<Normal<Object>>,
-    material_of: Option<MipChain<u8>>,
+    levels: NormalLevels<Object>,
     materials: Vec<Material>,
     quantized: Quantized<Object>,
 }
@@ -68,21 +68,12 @@ impl Subject {
             ..Options::default()
         };
         let quantized = quantize(&normals, &options, &Silent)?;
-        let normals = MipChain::build(normals, Normal::mean);
-        let material_of = material_of.map(|map| MipChain::build(map, mip::majority));
-        Ok(Self { name, mesh, normals, material_of, materials, quantized })
+        let levels = normal_levels(normals, material_of, Some(&covered))?;
+        Ok(Self { name, mesh, levels, materials, quantized })
     }
 
     fn scene<'a>(&'a self, detail: Detail<'a>) -> Result<Scene<'a>> {
-        let object = raster::Object {
-            mesh: &self.mesh,
-            pose: Pose::IDENTITY,
-            detail,
-            base_color: None,
-            materials: &self.materials,
-            model: LightingModel::BlinnPhong,
-            double_sided: false,
-        };
+        let object = raster::Object::new(&self.mesh, detail, &self.materials);
         let camera = Camera::orbit(self.mesh.bounding_sphere(), 0.0, 0.18, 1.02, 0.45, 1.0)?;
         Ok(Scene { objects: vec![object], lighting: inputs::lighting(), camera })
     }
@@ -91,8 +82,8 @@ impl Subject {
 /// A frame is the lighting of the tables, the clearing of the target, and the drawing.
 fn measure(subject: &Subject, rounds: usize) -> Result<Case> {
     let by_table = subject.scene(Detail::Indexed(&subject.quantized.map))?;
-    let by_pixel =
-        subject.scene(Detail::Object { normals: &subject.normals, materials: subject.material_of.as_ref() })?;
+    let levels = &subject.levels;
+    let by_pixel = subject.scene(Detail::Object { normals: &levels.normals, materials: levels.materials.as_ref() })?;
     let (mut table, mut exact) = (Target::new(SIDE, SIDE)?, Target::new(SIDE, SIDE)?);
     let times =
         duel(rounds, || frame(&by_table, Method::Table, &mut table), || frame(&by_pixel, Method::Exact, &mut exact))?;

@@ -10,7 +10,7 @@ use rilievo_io as io;
 use rilievo_io::SpaceKind;
 
 use crate::args::{ConventionArg, EffortArg, SpaceArg};
-use crate::exit::{Outcome, remark, usage};
+use crate::exit::{Outcome, remark, usage, warn};
 use crate::progress::Bars;
 use crate::report::Report;
 use crate::{batch, inputs};
@@ -22,6 +22,7 @@ const AFTER_HELP: &str = "\
 Examples:
   rilievo quantize bricks_normal_gl.png -n 256        -> bricks_normal_gl_256.png, an indexed PNG
   rilievo quantize bunny.png --space object           -> bunny_2048.ktx2
+  rilievo quantize bricks_normal_gl.png --max-rms 1   -> the smallest table that is within 1 degree RMS
   rilievo quantize vase.png --space object --materials vase_materials.png -n 1024 -o vase.ktx2 --json
 
 An indexed PNG (K up to 256) shows its normals in any viewer and is relit by rewriting its palette. KTX2 holds any K,
@@ -43,6 +44,9 @@ pub(crate) struct Args {
     /// Entries of the table, 2 to 65536.
     #[arg(short = 'n', long, value_name = "K", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(2..=65536))]
     entries: u32,
+    /// Find the smallest table with at most this RMS error, in degrees, instead of a given K.
+    #[arg(long, value_name = "DEG", conflicts_with = "entries")]
+    max_rms: Option<f64>,
     /// The space of the normals.
     #[arg(long, value_enum, default_value_t = SpaceArg::Tangent)]
     space: SpaceArg,
@@ -95,11 +99,17 @@ impl FileKind {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let extension = FileKind::default_for(args.entries).extension();
+    if args.max_rms.is_some_and(|m| !(m.is_finite() && m > 0.0)) {
+        return Err(usage("--max-rms is an angle in degrees, more than 0"));
+    }
+    // How many entries will do is only known afterwards: KTX2 holds any number.
+    let kind = if args.max_rms.is_some() { FileKind::Ktx2 } else { FileKind::default_for(args.entries) };
+    let extension = kind.extension();
+    let named = args.max_rms.map_or_else(|| args.entries.to_string(), |deg| format!("{deg}deg"));
     batch::run(
         &args.inputs,
         args.output.as_deref(),
-        |input| format!("{}_{}.{extension}", batch::stem(input), args.entries),
+        |input| format!("{}_{named}.{extension}", batch::stem(input)),
         |input, output| {
             let work = match args.space.into() {
                 SpaceKind::Tangent => convert::<Tangent>,
@@ -111,7 +121,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
-    let kind = FileKind::of(output, args.entries)?;
+    let kind = FileKind::of(output, if args.max_rms.is_some() { 1 } else { args.entries })?;
     let image = inputs::normals::<S>(input, args.convention.into())?;
     let materials: Option<MaterialMap> = args.materials.as_deref().map(inputs::materials).transpose()?;
     let options = Options {
@@ -122,11 +132,31 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
         mip_levels: kind == FileKind::Ktx2,
     };
     let started = Instant::now();
-    let quantized = quantize::quantize(&image.normals, &options, &Bars::new(input.display().to_string()))?;
+    let progress = Bars::new(input.display().to_string());
+    let quantized = match args.max_rms {
+        None => quantize::quantize(&image.normals, &options, &progress)?,
+        Some(degrees) => {
+            let found = quantize::quantize_within(&image.normals, degrees.to_radians(), &options, &progress)?;
+            let Some(quantized) = found else {
+                warn(
+                    &input.display().to_string(),
+                    &format!("no table reaches {degrees} degrees RMS; nothing is written"),
+                );
+                return Ok(Outcome::Negative);
+            };
+            quantized
+        }
+    };
     let seconds = started.elapsed().as_secs_f64();
     let entries = quantized.map.table().len();
-    if entries < args.entries as usize {
+    if args.max_rms.is_none() && entries < args.entries as usize {
         remark(format!("{}: only {entries} distinct normals, so the table has {entries} entries", input.display()));
+    }
+    if kind == FileKind::Png && entries > PALETTE_ENTRIES as usize {
+        return Err(usage(format!(
+            "{}: it takes {entries} entries, and a PNG holds 256; write a .ktx2",
+            output.display()
+        )));
     }
     let bytes = match kind {
         FileKind::Png => io::encode_indexed_png(&quantized.map, args.convention.into())?,

@@ -39,6 +39,20 @@ fn few_distinct_normals_give_few_entries_and_say_so() {
 }
 
 #[test]
+fn max_rms_finds_the_smallest_table() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let said = room.run("quantize n.png --max-rms 0.8 --json").ok().json();
+    let entries = said["entries"].as_u64().unwrap();
+    assert!(said["rms_deg"].as_f64().unwrap() <= 0.8 && entries > 2, "{said}");
+    let less = room.run(&format!("quantize n.png -n {} --json -o less.ktx2", entries - 1)).ok().json();
+    assert!(less["rms_deg"].as_f64().unwrap() > 0.8, "{less}");
+    assert_eq!(room.files(), ["less.ktx2", "n.png", "n_0.8deg.ktx2"]);
+    room.run("quantize n.png --max-rms -1").fails(2, &[]);
+    room.run("quantize n.png --max-rms 1 -n 16").fails(2, &["--max-rms"]);
+}
+
+#[test]
 fn materials_stay_apart() {
     let room = Room::new();
     room.bump_normals("n.png");

@@ -17,6 +17,7 @@ mod nearest;
 mod octahedral;
 mod points;
 mod round;
+mod search;
 mod seed;
 mod split_merge;
 mod spread;
@@ -25,6 +26,7 @@ mod testing;
 mod tree;
 
 pub use bound::fejes_toth_rms_rad;
+pub use search::quantize_within;
 
 use self::assign::Assigner;
 use self::entries::Entries;
