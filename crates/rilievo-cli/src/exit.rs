@@ -1,6 +1,6 @@
 //! Exit codes, and how errors and remarks reach the user.
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -24,6 +24,18 @@ pub(crate) enum Outcome {
     Negative,
     /// Some input of several failed; the errors have been shown.
     Failed(u8),
+}
+
+impl Outcome {
+    /// The worse of two outcomes: a failure over a negative answer over success, a higher code over a lower one.
+    pub(crate) fn or_worse(self, other: Self) -> Self {
+        let rank = |outcome| match outcome {
+            Self::Done => 0,
+            Self::Negative => NEGATIVE,
+            Self::Failed(code) => code,
+        };
+        if rank(other) > rank(self) { other } else { self }
+    }
 }
 
 /// The user's command line asks for something impossible.
@@ -52,25 +64,27 @@ pub(crate) fn fail(error: &anyhow::Error) -> ExitCode {
 }
 
 /// Shows an error on stderr; returns its exit code, or `None` for a closed pipe.
-#[expect(clippy::print_stderr, reason = "this is where messages go")]
 pub(crate) fn show(error: &anyhow::Error) -> Option<u8> {
     let code = code(error)?;
-    eprintln!("error: {error:#}");
+    say(&format!("error: {error:#}"));
     Some(code)
 }
 
 /// Something the user should know although the work goes on.
-#[expect(clippy::print_stderr, reason = "this is where messages go")]
 pub(crate) fn warn(name: &str, message: &str) {
-    eprintln!("warning: {name}: {message}");
+    say(&format!("warning: {name}: {message}"));
 }
 
 /// Something the user may like to know.
-#[expect(clippy::print_stderr, reason = "this is where messages go")]
 pub(crate) fn remark(message: impl AsRef<str>) {
     if !is_quiet() {
-        eprintln!("{}", message.as_ref());
+        say(message.as_ref());
     }
+}
+
+/// One line on stderr. That nobody can be told is no reason to stop working.
+fn say(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// Sets whether remarks and progress are wanted.
@@ -98,7 +112,7 @@ fn code(error: &anyhow::Error) -> Option<u8> {
             Some(_) => return Some(BAD_INPUT),
         }
         match cause.downcast_ref::<rilievo::Error>() {
-            Some(rilievo::Error::Parameter { .. }) => return Some(USAGE),
+            Some(rilievo::Error::Parameter { .. } | rilievo::Error::Size { .. }) => return Some(USAGE),
             Some(_) => return Some(BAD_INPUT),
             None => {}
         }

@@ -14,8 +14,9 @@ mod surface;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::args::Given;
 use crate::exit::Outcome;
 
 const AFTER_HELP: &str = "\
@@ -34,8 +35,8 @@ Exit codes: 0 done; 1 a negative answer (a comparison over its threshold); 2 wro
 #[command(name = "rilievo", version, after_help = AFTER_HELP, max_term_width = 110)]
 struct Cli {
     /// Threads to use; 0 is one per core.
-    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
-    threads: usize,
+    #[arg(long, global = true, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1024))]
+    threads: u16,
     /// No progress bars and no remarks on stderr; errors and warnings stay.
     #[arg(long, short, global = true)]
     quiet: bool,
@@ -55,23 +56,27 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let matches = Cli::command().get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     exit::quiet(cli.quiet);
-    // A pool that cannot be made is not worth stopping for: rayon then uses its own.
-    let _ = rayon::ThreadPoolBuilder::new().num_threads(cli.threads).build_global();
-    let outcome = match cli.command {
-        Command::Normal(args) => commands::normal::run(&args),
-        Command::Quantize(args) => commands::quantize::run(&args),
-        Command::Relight(args) => commands::relight::run(&args),
-        Command::Render(args) => commands::render::run(&args),
-        Command::Compare(args) => commands::compare::run(&args),
-        Command::Demo(args) => commands::demo::run(&args),
-        Command::Completions(args) => commands::completions::run(&args),
-    };
-    match outcome {
+    match run(cli, &Given::of(&matches)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Negative) => ExitCode::from(exit::NEGATIVE),
         Ok(Outcome::Failed(code)) => ExitCode::from(code),
         Err(error) => exit::fail(&error),
+    }
+}
+
+fn run(cli: Cli, given: &Given) -> anyhow::Result<Outcome> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(cli.threads.into());
+    pool.build_global().map_err(|e| exit::usage(format!("--threads {}: {e}", cli.threads)))?;
+    match cli.command {
+        Command::Normal(args) => commands::normal::run(&args, given),
+        Command::Quantize(args) => commands::quantize::run(&args),
+        Command::Relight(args) => commands::relight::run(&args, given),
+        Command::Render(args) => commands::render::run(&args, given),
+        Command::Compare(args) => commands::compare::run(&args, given),
+        Command::Demo(args) => commands::demo::run(&args),
+        Command::Completions(args) => commands::completions::run(&args),
     }
 }

@@ -1,11 +1,12 @@
 //! From a surface and its maps, as the user names them, to what the renderer draws.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
 use glam::Vec2;
+use rilievo::height::HeightMap;
 use rilievo::light::Material;
 use rilievo::normal::{NormalLevels, NormalMap, normal_levels};
 use rilievo::quantize::{self, Effort, Options};
@@ -15,7 +16,7 @@ use rilievo::surface::{Deflected, Mesh, deflect_heights, deflect_normals};
 use rilievo::{Grid, LinearRgb, MaterialMap, MipChain, Object, QuantizedMap, Tangent};
 use rilievo_io::{AnyIndexed, ImportAs, SpaceKind};
 
-use crate::args::{ConventionArg, EffortArg, HeightArgs, OntoArgs, SpaceArg};
+use crate::args::{ConventionArg, EffortArg, Given, HeightArgs, OntoArgs, SpaceArg};
 use crate::exit::{remark, usage};
 use crate::progress::Bars;
 use crate::surface::{SURFACE_HELP, SurfaceArg};
@@ -152,15 +153,21 @@ enum Source {
 
 impl ReliefArgs {
     /// Reads, bends and quantises what `method` needs.
-    pub(crate) fn load(&self, method: Method) -> Result<Relief> {
+    pub(crate) fn load(&self, method: Method, given: &Given) -> Result<Relief> {
+        self.warn_of_unused(method, given);
         let progress = Bars::new(self.surface.stem());
         let samples = (self.surface == SurfaceArg::Vase).then(|| vase::maps(VASE_WIDTH)).transpose()?;
-        let own_relief = self.height.is_none() && self.normals.is_none() && self.indexed.is_none();
+        let own_relief = self.has_no_map();
+        if samples.is_some() && own_relief && (given.has("repeat") || given.has("map_size")) {
+            return Err(usage(
+                "the vase's own maps fit each other as they are; --repeat and --map-size are for maps you give",
+            ));
+        }
         let mut materials: Option<MaterialMap> = self.materials.as_deref().map(inputs::materials).transpose()?;
         if own_relief && materials.is_none() {
             materials = samples.as_ref().map(|s| s.materials.clone());
         }
-        let (mesh, source) = self.load_source(method, samples.as_ref(), &progress)?;
+        let (mesh, source) = self.load_source(method, given, samples.as_ref(), &progress)?;
         let repeat = self.onto.repeat(&self.surface);
         let color = match (&self.color, &samples) {
             (Some(path), _) => Some(inputs::picture(path)?),
@@ -173,7 +180,44 @@ impl ReliefArgs {
         Ok(Relief { mesh, detail, base_color, default_materials, quantized })
     }
 
-    fn load_source(&self, method: Method, samples: Option<&vase::VaseMaps>, progress: &Bars) -> Result<(Mesh, Source)> {
+    /// Files this reads.
+    pub(crate) fn files(&self) -> Vec<&Path> {
+        let maps = [&self.height, &self.normals, &self.indexed, &self.color, &self.materials];
+        maps.into_iter().filter_map(Option::as_deref).chain(self.surface.path()).collect()
+    }
+
+    fn has_no_map(&self) -> bool {
+        self.height.is_none() && self.normals.is_none() && self.indexed.is_none()
+    }
+
+    fn warn_of_unused(&self, method: Method, given: &Given) {
+        let vase = self.surface == SurfaceArg::Vase && self.has_no_map();
+        if self.normals.is_none() {
+            given.unused(&["space", "convention"], "they are for --normals");
+        }
+        if self.height.is_none() && !vase {
+            given.unused(&["depth", "filter"], "they are for --height");
+        }
+        let object_space = SpaceKind::from(self.space) == SpaceKind::Object;
+        let bent =
+            self.height.is_some() || vase || (self.normals.is_some() && !object_space && method == Method::Table);
+        if !bent {
+            given.unused(&["map_size", "gutter"], "no map is bent onto the mesh");
+        }
+        if self.indexed.is_some() {
+            given.unused(&["entries", "effort"], "the map is quantised already");
+        } else if method == Method::Exact {
+            given.unused(&["entries", "effort"], "the exact method needs no table");
+        }
+    }
+
+    fn load_source(
+        &self,
+        method: Method,
+        given: &Given,
+        samples: Option<&vase::VaseMaps>,
+        progress: &Bars,
+    ) -> Result<(Mesh, Source)> {
         let aspect = |(w, h): (u32, u32)| w as f32 / h as f32;
         if let Some(path) = &self.height {
             let map = crate::commands::normal::read_height(&self.heights, path)?;
@@ -207,8 +251,10 @@ impl ReliefArgs {
         if let Some(samples) = samples {
             let mesh = self.surface.load(1.0)?;
             let options = self.onto.options(&self.surface, samples.height.heights().size())?;
-            let (filter, edges) = (self.heights.filter(), rilievo::Edges::Wrap);
-            let deflected = deflect_heights(&mesh, &samples.height, filter, edges, &options, progress)?;
+            let depth = if given.has("depth") { self.heights.depth } else { samples.height.depth() };
+            let map = HeightMap::new(samples.height.heights().clone(), depth)?;
+            let (filter, edges) = (self.heights.filter(), self.heights.edges());
+            let deflected = deflect_heights(&mesh, &map, filter, edges, &options, progress)?;
             return Ok((mesh, bent(deflected)));
         }
         Ok((self.surface.load(1.0)?, Source::Nothing))

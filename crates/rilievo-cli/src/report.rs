@@ -46,6 +46,8 @@ impl Report {
         for (key, value) in &self.rows {
             match value {
                 Value::String(text) => writeln!(out, "{key:width$}  {text}"),
+                // Infinite has no number in JSON: the PSNR of equal pictures.
+                Value::Null => writeln!(out, "{key:width$}  inf"),
                 other => writeln!(out, "{key:width$}  {other}"),
             }
             .context("stdout")?;

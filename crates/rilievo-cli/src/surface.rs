@@ -40,6 +40,9 @@ impl FromStr for SurfaceArg {
                 _ => Err(format!("'{text}': after the colon comes NxM, as in torus:16x9")),
             }
         };
+        if matches!(name, "plane" | "cube" | "vase") && text.contains(':') {
+            return Err(format!("'{text}': {name} has no numbers after a colon"));
+        }
         Ok(match name {
             "plane" => Self::Plane,
             "cube" => Self::Cube,
@@ -62,6 +65,11 @@ impl SurfaceArg {
             Self::Vase => rilievo::sample::vase::mesh(rilievo::sample::vase::DEFAULT_SEGMENTS)?,
             Self::File(path) => load_file(path)?,
         })
+    }
+
+    /// The file it is read from, if it is one.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        if let Self::File(path) = self { Some(path) } else { None }
     }
 
     /// How often a map repeats over the texture square unless told otherwise: whole maps on each face of a cube.
@@ -101,6 +109,6 @@ mod tests {
         assert_eq!(parse("torus:16x9"), Ok(SurfaceArg::Torus { segments: 16, sides: 9 }));
         assert_eq!(parse("sphere"), Ok(SurfaceArg::Sphere { segments: 64, rings: 32 }));
         assert_eq!(parse("./cube.obj"), Ok(SurfaceArg::File("./cube.obj".into())));
-        assert!(parse("torus:16").is_err() && parse("sphere:ax4").is_err());
+        assert!(parse("torus:16").is_err() && parse("sphere:ax4").is_err() && parse("vase:3x4").is_err());
     }
 }

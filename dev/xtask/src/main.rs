@@ -7,6 +7,7 @@
 mod bench;
 mod bless;
 mod demo;
+mod deny;
 mod hygiene;
 mod needs;
 mod run;
@@ -37,6 +38,8 @@ enum Task {
     Bless,
     /// Check the files themselves: paths, sizes, manifests, licences.
     Hygiene,
+    /// Check licences, duplicates and sources with cargo-deny, stricter than the hygiene step.
+    Deny,
     /// Measure against peers.
     Bench(bench::Options),
 }
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
         Task::Demo(options) => demo::run(&options),
         Task::Bless => bless::run(),
         Task::Hygiene => hygiene::run(),
+        Task::Deny => deny::run(),
         Task::Bench(options) => bench::run(&options),
     };
     // Without a stack trace: what failed is another program or a file, not this one.

@@ -99,14 +99,6 @@ const TOOLS: &[Tool] = &[
         debian: None,
         hint: "cargo install cargo-nextest --locked",
     },
-    Tool {
-        name: "cargo-deny",
-        programs: &["cargo deny"],
-        purpose: "checks licences and duplicates more strictly than the hygiene step",
-        without: Without::Fine,
-        debian: None,
-        hint: "cargo install cargo-deny --locked",
-    },
 ];
 
 impl Tool {
@@ -223,7 +215,7 @@ mod tests {
 
     #[test]
     fn missing_convenience_never_stops() {
-        assert!(fatal(&[tool("cargo-nextest"), tool("cargo-deny")], true).is_empty());
+        assert!(fatal(&[tool("cargo-nextest")], true).is_empty());
     }
 
     #[test]

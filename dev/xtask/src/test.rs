@@ -39,7 +39,6 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "one-thread", what: "the library without rayon", tools: &[], slow: false, run: one_thread },
     Step { name: "docs", what: "documentation builds without a warning", tools: &[], slow: true, run: |_| docs() },
     Step { name: "hygiene", what: "the files themselves", tools: &["git"], slow: false, run: |_| hygiene::run() },
-    Step { name: "deny", what: "licences and duplicates", tools: &["cargo-deny"], slow: false, run: |_| deny() },
     Step { name: "demo", what: "the real program, from end to end", tools: &[], slow: true, run: |_| smoke::run() },
 ];
 
@@ -167,11 +166,6 @@ fn one_thread(log: &SkipLog) -> Result<()> {
 
 fn docs() -> Result<()> {
     Run::cargo().env("RUSTDOCFLAGS", "-D warnings").args(["doc", "--workspace", "--no-deps"]).wait()
-}
-
-fn deny() -> Result<()> {
-    // Not the advisories: they need a database from the network.
-    Run::cargo().args(["deny", "check", "licenses", "bans", "sources"]).wait()
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use rilievo::{LinearRgb, Normal, World};
 
 use super::values::finite;
 use super::{ColorArg, ModelArg};
+use crate::exit;
 
 /// Light that falls on the surface.
 #[derive(Debug, Clone, Args)]
@@ -82,6 +83,9 @@ pub(crate) struct MaterialArgs {
 impl MaterialArgs {
     /// Materials `0 … count − 1`: those that were given, and the default for the rest.
     pub(crate) fn resolve(&self, count: usize, default: impl Fn(usize) -> Material) -> Vec<Material> {
+        for absent in self.material.iter().filter(|m| usize::from(m.number) >= count.max(1)) {
+            exit::warn("--material", &format!("there is no material {}: the maps name {count}", absent.number));
+        }
         let given = |n: usize| self.material.iter().rev().find(|m| usize::from(m.number) == n);
         (0..count.max(1)).map(|n| given(n).map_or_else(|| default(n), |m| m.material)).collect()
     }

@@ -15,7 +15,7 @@ const DEFAULT_MAX_WIDTH: f32 = 4096.0;
 /// The scale and slopes of height maps.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct HeightArgs {
-    /// Height of full white, as a fraction of the map's width; negative if white is deep.
+    /// Height of full white, as a fraction of the map's width; negative if white is deep. The vase has its own.
     #[arg(long, value_name = "D", default_value_t = 0.05, allow_hyphen_values = true)]
     pub(crate) depth: f32,
     /// How slopes are estimated.

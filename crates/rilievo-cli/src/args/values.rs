@@ -77,18 +77,23 @@ impl FromStr for CameraArg {
         if rest.len() > 2 || !(-90.0..=90.0).contains(&elevation) {
             return Err(form());
         }
-        Ok(Self {
-            azimuth_rad: azimuth.to_radians(),
-            elevation_rad: elevation.to_radians(),
-            distance: rest.first().copied().unwrap_or(1.0),
-            fov_y_rad: rest.get(1).copied().unwrap_or(30.0).to_radians(),
-        })
+        let (distance, fov) = (rest.first().copied().unwrap_or(1.0), rest.get(1).copied().unwrap_or(30.0));
+        if !(0.01..=10_000.0).contains(&distance) || !(0.1..=170.0).contains(&fov) {
+            return Err(format!("'{text}': the distance must be 0.01 to 10000, the field of view 0.1 to 170 degrees"));
+        }
+        let (azimuth_rad, elevation_rad) = (azimuth.to_radians(), elevation.to_radians());
+        Ok(Self { azimuth_rad, elevation_rad, distance, fov_y_rad: fov.to_radians() })
     }
 }
 
 /// A finite number.
 pub(super) fn finite(text: &str) -> Option<f32> {
     text.trim().parse::<f32>().ok().filter(|v| v.is_finite())
+}
+
+/// A threshold: a number, not NaN.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    text.trim().parse().ok().filter(|v: &f64| !v.is_nan()).ok_or_else(|| format!("'{text}' is not a number"))
 }
 
 /// `A,B`, or one number for both: how often a map repeats along u and v.
@@ -126,7 +131,7 @@ mod tests {
     #[test]
     fn cameras() {
         assert!("30,20".parse::<CameraArg>().is_ok() && "-30,-20,1.5,40".parse::<CameraArg>().is_ok());
-        for bad in ["", "30", "0,91", "1,2,3,4,5", "nan,0"] {
+        for bad in ["", "30", "0,91", "1,2,3,4,5", "nan,0", "0,0,0", "0,0,1e30", "0,0,1,180"] {
             assert!(bad.parse::<CameraArg>().is_err(), "{bad}");
         }
     }

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::ValueEnum;
-use rilievo::Object;
 use rilievo::measure::{AngleStats, DEFAULT_PIXELS_PER_DEGREE, PictureStats, angle_stats, flip_mean, picture_stats};
+use rilievo::{Grid, Object};
 use rilievo_io::{self as io, Limits, Source};
 
-use crate::args::ConventionArg;
+use crate::args::{ConventionArg, Given, number};
 use crate::exit::{Outcome, usage};
 use crate::inputs;
 use crate::report::Report;
@@ -40,16 +40,16 @@ pub(crate) struct Args {
     #[arg(long, value_enum)]
     convention_b: Option<ConventionArg>,
     /// Normal maps: the answer is no (exit code 1) over this RMS angle.
-    #[arg(long, value_name = "DEG")]
+    #[arg(long, value_name = "DEG", value_parser = number)]
     max_rms: Option<f64>,
     /// Normal maps: the answer is no over this largest angle.
-    #[arg(long, value_name = "DEG")]
+    #[arg(long, value_name = "DEG", value_parser = number)]
     max_deg: Option<f64>,
     /// Pictures: the answer is no under this PSNR.
-    #[arg(long, value_name = "DB")]
+    #[arg(long, value_name = "DB", value_parser = number)]
     min_psnr: Option<f64>,
     /// Pictures: the answer is no over this mean FLIP.
-    #[arg(long, value_name = "FLIP")]
+    #[arg(long, value_name = "FLIP", value_parser = number)]
     max_flip: Option<f64>,
     /// Pictures: the answer is no over this largest difference of a channel, 0 to 255.
     #[arg(long, value_name = "STEPS")]
@@ -68,7 +68,10 @@ enum Kind {
     Picture,
 }
 
-pub(crate) fn run(args: &Args) -> Result<Outcome> {
+pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
+    if args.a.as_os_str() == "-" && args.b.as_os_str() == "-" {
+        return Err(usage("only one of the two can be standard input"));
+    }
     let (a, b) = (inputs::open(&args.a)?, inputs::open(&args.b)?);
     let kind = match args.kind {
         Some(kind) => kind,
@@ -78,8 +81,14 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         None => Kind::Picture,
     };
     let (report, passed) = match kind {
-        Kind::Normals => compare_normals(args, &a, &b)?,
-        Kind::Picture => compare_pictures(args, &a, &b)?,
+        Kind::Normals => {
+            given.unused(&["pixels_per_degree"], "these are normal maps");
+            compare_normals(args, &a, &b)?
+        }
+        Kind::Picture => {
+            given.unused(&["convention", "convention_b"], "these are pictures");
+            compare_pictures(args, &a, &b)?
+        }
     };
     report.print(args.json)?;
     Ok(if passed { Outcome::Done } else { Outcome::Negative })
@@ -94,7 +103,16 @@ fn compare_normals(args: &Args, a: &Source, b: &Source) -> Result<(Report, bool)
     // The space does not matter for angles, only that it is the same.
     let a = inputs::any_normals::<Object>(a, args.convention.into())?;
     let b = inputs::any_normals::<Object>(b, args.convention_b.unwrap_or(args.convention).into())?;
-    let stats: AngleStats = angle_stats(&a.normals, &b.normals, a.covered.as_ref())?;
+    a.normals.expect_same_size("the second map", &b.normals)?;
+    // Only texels that mean something in both.
+    let both = match (a.covered, b.covered) {
+        (Some(a), Some(b)) => {
+            let both = a.texels().iter().zip(b.texels()).map(|(&a, &b)| a && b).collect();
+            Some(Grid::new(a.width(), a.height(), both)?)
+        }
+        (one, other) => one.or(other),
+    };
+    let stats: AngleStats = angle_stats(&a.normals, &b.normals, both.as_ref())?;
     let mut report = Report::default();
     report.add("kind", "normals").add("texels", stats.count).add_angles(&stats);
     let within = |value: f64, limit: Option<f64>| limit.is_none_or(|l| value <= l);

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::ValueEnum;
 use rilievo::height::{self, HeightMap};
 use rilievo::normal::{DitherU8, NormalMap, encode_map_u8};
@@ -10,7 +10,7 @@ use rilievo::surface::{Deflect, deflect_heights, deflect_normals};
 use rilievo::{Grid, Object, Space, Tangent};
 use rilievo_io as io;
 
-use crate::args::{Bits, ConventionArg, HeightArgs, OntoArgs};
+use crate::args::{Bits, ConventionArg, Given, HeightArgs, OntoArgs};
 use crate::exit::{Outcome, remark, usage};
 use crate::progress::Bars;
 use crate::surface::SurfaceArg;
@@ -31,7 +31,7 @@ Heights: white is up. --depth is the height of full white as a fraction of the m
 #[derive(Debug, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct Args {
-    /// Height maps: PNG, JPEG, TIFF or EXR; - is stdin.
+    /// Height maps: PNG, JPEG, TIFF, EXR or NPY; - is stdin.
     #[arg(required = true, value_name = "HEIGHT")]
     inputs: Vec<PathBuf>,
     /// The output: a file, or a folder for several inputs. The extension chooses PNG or EXR (32-bit float).
@@ -73,19 +73,33 @@ enum Dither {
     Diffusion,
 }
 
-pub(crate) fn run(args: &Args) -> Result<Outcome> {
+pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     if args.from == InputKind::Normal && args.onto.is_none() {
         return Err(usage("--from normal needs --onto MESH: a tangent-space map is bent onto a mesh"));
     }
     if args.dither != Dither::None && args.bits != Bits::Eight {
         return Err(usage("--dither needs --bits 8: 16 bits have nothing to dither"));
     }
+    if args.onto.is_none() {
+        given.unused(&["repeat", "map_size", "gutter"], "they are for --onto");
+    } else {
+        let read = args.from == InputKind::Normal;
+        given.unused(if read { &[] } else { &["convention"] }, "object-space maps have no up the picture");
+    }
+    if args.from == InputKind::Normal {
+        given.unused(&["depth", "filter", "edges"], "they are for height maps");
+    }
+    if args.output.as_deref().is_some_and(is_exr) {
+        given.unused(&["bits", "dither"], "an EXR holds 32-bit floats");
+    }
     let space = if args.onto.is_some() { "object" } else { args.convention.suffix() };
     batch::run(
         &args.inputs,
         args.output.as_deref(),
+        &["png", "exr"],
+        &args.onto.iter().filter_map(SurfaceArg::path).collect::<Vec<_>>(),
         |input| format!("{}_normal_{space}.png", batch::stem(input)),
-        |input, output| convert(args, input, output).with_context(|| input.display().to_string()),
+        |input, output| convert(args, input, output),
     )
 }
 
@@ -114,6 +128,10 @@ fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
+fn is_exr(output: &Path) -> bool {
+    output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
+}
+
 /// Reads a height map with its scale.
 pub(crate) fn read_height(args: &HeightArgs, input: &Path) -> Result<HeightMap> {
     Ok(HeightMap::new(inputs::height(input)?.heights, args.depth)?)
@@ -137,8 +155,7 @@ fn aspect<T>(map: &Grid<T>) -> f32 {
 fn write<S: Space>(args: &Args, normals: &NormalMap<S>, covered: Option<&Grid<bool>>, output: &Path) -> Result<()> {
     // Object space has no "up the picture": its maps are always +Y.
     let convention = if S::NAME == Object::NAME { ConventionArg::Gl } else { args.convention };
-    let exr = output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
-    let bytes = if exr {
+    let bytes = if is_exr(output) {
         io::encode_normals_exr(normals, convention.into(), covered)?
     } else if args.bits == Bits::Sixteen {
         io::encode_normals_png16(normals, convention.into(), covered)?

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use rilievo::quantize::{self, Options, Quantized, fejes_toth_rms_rad};
 use rilievo::{MaterialMap, Object, Space, Tangent};
 use rilievo_io as io;
@@ -81,8 +81,7 @@ impl FileKind {
                 "{}: an indexed PNG holds at most 256 entries, not {entries}; use -n 256 or a .ktx2 file",
                 output.display()
             ))),
-            _ if output.as_os_str() == "-" => Ok(Self::default_for(entries)),
-            _ => Err(usage(format!("{}: write to a .png or a .ktx2 file", output.display()))),
+            _ => Ok(Self::default_for(entries)),
         }
     }
 
@@ -109,13 +108,15 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     batch::run(
         &args.inputs,
         args.output.as_deref(),
+        &["png", "ktx2"],
+        &args.materials.as_deref().into_iter().collect::<Vec<_>>(),
         |input| format!("{}_{named}.{extension}", batch::stem(input)),
         |input, output| {
             let work = match args.space.into() {
                 SpaceKind::Tangent => convert::<Tangent>,
                 SpaceKind::Object => convert::<Object>,
             };
-            work(args, input, output).with_context(|| input.display().to_string())
+            work(args, input, output)
         },
     )
 }
@@ -124,8 +125,9 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
     let kind = FileKind::of(output, if args.max_rms.is_some() { 1 } else { args.entries })?;
     let image = inputs::normals::<S>(input, args.convention.into())?;
     let materials: Option<MaterialMap> = args.materials.as_deref().map(inputs::materials).transpose()?;
+    let most = if kind == FileKind::Png { PALETTE_ENTRIES } else { 65_536 };
     let options = Options {
-        entries: args.entries,
+        entries: args.max_rms.map_or(args.entries, |_| most),
         effort: args.effort.into(),
         materials: materials.as_ref(),
         covered: image.covered.as_ref(),
@@ -140,7 +142,7 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
             let Some(quantized) = found else {
                 warn(
                     &input.display().to_string(),
-                    &format!("no table reaches {degrees} degrees RMS; nothing is written"),
+                    &format!("no table of up to {most} entries reaches {degrees} degrees RMS; nothing is written"),
                 );
                 return Ok(Outcome::Negative);
             };
@@ -151,12 +153,6 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
     let entries = quantized.map.table().len();
     if args.max_rms.is_none() && entries < args.entries as usize {
         remark(format!("{}: only {entries} distinct normals, so the table has {entries} entries", input.display()));
-    }
-    if kind == FileKind::Png && entries > PALETTE_ENTRIES as usize {
-        return Err(usage(format!(
-            "{}: it takes {entries} entries, and a PNG holds 256; write a .ktx2",
-            output.display()
-        )));
     }
     let bytes = match kind {
         FileKind::Png => io::encode_indexed_png(&quantized.map, args.convention.into())?,

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use rilievo::color::Picture;
 use rilievo::light::{Lighting, Material, ShadeTable, relight};
 use rilievo::{Normal, NormalTable, QuantizedMap, Rgba8, Space};
 use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
 
-use crate::args::{ConventionArg, LightArgs, MaterialArgs, SpaceArg};
+use crate::args::{ConventionArg, Given, LightArgs, MaterialArgs, SpaceArg};
 use crate::exit::{self, Outcome, remark, usage};
 use crate::progress::Bars;
 use crate::{batch, inputs};
@@ -59,10 +59,14 @@ impl Args {
     }
 }
 
-pub(crate) fn run(args: &Args) -> Result<Outcome> {
+pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
+    if args.frames == 1 {
+        given.unused(&["delay"], "one frame is no animation; see --frames");
+    }
     let name = |input: &Path| format!("{}_relit.png", batch::stem(input));
-    batch::run(&args.inputs, args.output.as_deref(), name, |input, output| {
-        convert(args, input, output).with_context(|| input.display().to_string())
+    let read: Vec<&Path> = args.color.as_deref().into_iter().collect();
+    batch::run(&args.inputs, args.output.as_deref(), &["png"], &read, name, |input, output| {
+        convert(args, input, output)
     })
 }
 

@@ -1,6 +1,6 @@
 //! `rilievo render`: pictures of surfaces.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
@@ -10,8 +10,9 @@ use rilievo::raster::{self, Frame, Method, Object, Scene, Target};
 use rilievo::{Pose, Progress};
 use rilievo_io as io;
 
-use crate::args::{CameraArg, ColorArg, LightArgs, MaterialArgs, MethodArg, SamplingArg, SizeArg};
-use crate::exit::{Outcome, remark};
+use crate::args::{CameraArg, ColorArg, Given, LightArgs, MaterialArgs, MethodArg, SamplingArg, SizeArg};
+use crate::batch::{check_output, named};
+use crate::exit::{Outcome, remark, usage};
 use crate::progress::Bars;
 use crate::relief::{Relief, ReliefArgs};
 use crate::report::Report;
@@ -83,13 +84,28 @@ enum Turn {
     Camera,
 }
 
-pub(crate) fn run(args: &Args) -> Result<Outcome> {
+/// The most bytes all frames of an animation may take, since they are kept until the file is written.
+const MAX_ANIMATION_BYTES: u64 = 4 << 30;
+
+pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     let method = Method::from(args.method);
-    let relief = args.relief.load(method)?;
     let name = args.method.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
     let default_output = || PathBuf::from(format!("{}_{name}.png", args.relief.surface.stem()));
     let output = args.output.clone().unwrap_or_else(default_output);
-    let mut shoot = Shoot::new(args, &relief)?;
+    check_output(&output, &["png"], &args.relief.files())?;
+    if args.frames == 1 {
+        given.unused(&["turn", "delay"], "one frame is no animation; see --frames");
+    }
+    let bytes = u64::from(args.frames) * u64::from(args.size.width) * u64::from(args.size.height) * 4;
+    if args.frames > 1 && bytes > MAX_ANIMATION_BYTES {
+        let message =
+            format!("{} frames of this --size take {:.1} GB, and 4 GiB is the limit", args.frames, bytes as f64 / 1e9);
+        return Err(usage(message));
+    }
+    let n = args.supersample;
+    let target = Target::new(args.size.width.saturating_mul(n), args.size.height.saturating_mul(n))?;
+    let relief = args.relief.load(method, given).map_err(|e| named(e, Path::new(&args.relief.surface.stem())))?;
+    let mut shoot = Shoot::new(args, &relief, target);
     let progress = Bars::new(args.relief.surface.stem());
     progress.begin("rendering", args.frames.into());
     let mut pictures = Vec::new();
@@ -120,11 +136,9 @@ struct Shoot<'a> {
 }
 
 impl<'a> Shoot<'a> {
-    fn new(args: &'a Args, relief: &'a Relief) -> Result<Self> {
-        let n = args.supersample;
-        let target = Target::new(args.size.width * n, args.size.height * n)?;
+    fn new(args: &'a Args, relief: &'a Relief, target: Target) -> Self {
         let materials = args.material.resolve(relief.material_count(), |m| relief.default_materials.material(m));
-        Ok(Self { args, relief, target, materials, table_seconds: 0.0, draw_seconds: 0.0 })
+        Self { args, relief, target, materials, table_seconds: 0.0, draw_seconds: 0.0 }
     }
 
     fn frame(&mut self, frame: u32) -> Result<Picture> {
@@ -166,7 +180,7 @@ impl<'a> Shoot<'a> {
             .add("frames", self.args.frames)
             .add_f64("seconds_per_frame", (self.table_seconds + self.draw_seconds) / frames)
             .add_f64("table_seconds", self.table_seconds / frames)
-            .add("covered_pixels", self.target.covered_pixels());
+            .add("covered_pixels", self.target.covered_pixels() / u64::from(self.args.supersample).pow(2));
         if let Some(quantized) = &self.relief.quantized {
             report
                 .add("entries", quantized.entries)

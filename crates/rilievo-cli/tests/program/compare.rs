@@ -44,3 +44,18 @@ fn sizes_must_agree() {
     }
     room.run("compare a.png b.png").fails(4, &["4 × 3", "5 × 3"]);
 }
+
+#[test]
+fn only_texels_covered_in_both_count_whichever_comes_first() {
+    let room = Room::new();
+    let normals = |z: f32| {
+        Grid::filled(4, 2, rilievo::Normal::<rilievo::Tangent>::new(glam::Vec3::new(0.2, 0.0, z)).unwrap()).unwrap()
+    };
+    let half = Grid::from_fn(4, 2, |x, _| x < 2).unwrap();
+    let gl = rilievo::Convention::Gl;
+    room.write("half.png", &rilievo_io::encode_normals_png16(&normals(1.0), gl, Some(&half)).unwrap());
+    room.write("full.png", &rilievo_io::encode_normals_png16(&normals(0.9), gl, None).unwrap());
+    for args in ["compare half.png full.png --as normals --json", "compare full.png half.png --as normals --json"] {
+        assert_eq!(room.run(args).ok().json()["texels"], 4, "{args}");
+    }
+}

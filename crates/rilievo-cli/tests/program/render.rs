@@ -48,3 +48,28 @@ fn a_material_map_of_another_size_names_both() {
     assert_eq!(said.code, 2);
     assert!(said.stderr.contains("3 x 5") && said.stderr.contains("64 x 48"), "{}", said.stderr);
 }
+
+#[test]
+fn flags_change_the_vase() {
+    let room = Room::new();
+    let shot = |name: &str, flags: &str| {
+        room.run(&format!("render vase --method exact --size 48x64 -o {name} {flags}")).ok();
+        room.read(name)
+    };
+    let plain = shot("plain.png", "");
+    for (name, flags) in
+        [("deep.png", "--depth 0.05"), ("plane8.png", "--filter plane8"), ("turned.png", "--camera 40,10")]
+    {
+        assert_ne!(shot(name, flags), plain, "{flags}");
+    }
+}
+
+#[test]
+fn covered_pixels_are_pixels_of_the_picture() {
+    let room = Room::new();
+    let count = |flags: &str| {
+        let said = room.run(&format!("render sphere --method exact --size 64 --json -o s.png {flags}")).ok();
+        said.json()["covered_pixels"].as_u64().unwrap()
+    };
+    assert!(count("").abs_diff(count("--supersample 4")) < 40);
+}

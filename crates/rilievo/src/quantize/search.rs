@@ -1,14 +1,13 @@
 //! The smallest table that is good enough.
 
 use super::{Options, Quantized, quantize};
-use crate::indexed::MAX_ENTRIES;
 use crate::progress::Silent;
 use crate::{NormalMap, Progress, Result, Space};
 
 /// Quantises `map` to the smallest table whose RMS error is at most `max_rms_rad` radians; `None` if the largest table
 /// misses it.
 ///
-/// `options.entries` is not used. A table of every size between failing and passing ones is made on the way, about
+/// `options.entries` is the largest size that is tried. A table of every size between failing and passing ones is made on the way, about
 /// fifteen in all. The quantiser is not perfectly even: a smaller table than the one found may pass by luck, but the one
 /// with an entry less does not.
 ///
@@ -27,7 +26,7 @@ pub fn quantize_within<S: Space>(
         progress.advance(1);
         Ok(tried.error.rms_rad)
     };
-    let Some(entries) = smallest(fewest, MAX_ENTRIES as u32, max_rms_rad, rms)? else { return Ok(None) };
+    let Some(entries) = smallest(fewest, options.entries.max(fewest), max_rms_rad, rms)? else { return Ok(None) };
     quantize(map, &Options { entries, ..*options }, progress).map(Some)
 }
 
@@ -95,7 +94,9 @@ mod tests {
         })
         .unwrap();
         let target = 2.0f64.to_radians();
-        let found = quantize_within(&map, target, &Options::default(), &Silent).unwrap().unwrap();
+        let found = quantize_within(&map, target, &Options { entries: 65_536, ..Options::default() }, &Silent)
+            .unwrap()
+            .unwrap();
         assert!(found.error.rms_rad <= target);
         let entries = found.map.table().len() as u32 - 1;
         let less = quantize(&map, &Options { entries, ..Options::default() }, &Silent).unwrap();
