@@ -5,7 +5,7 @@ use glam::{DVec3, Vec2, Vec3};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material};
 use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, Target, TextureFilter, draw, prepare};
 use rilievo::surface::{Camera, Mesh, MeshParts, shapes};
-use rilievo::{Grid, LinearRgb, MipChain, Normal, NormalTable, Pose, QuantizedMap};
+use rilievo::{Edges, Grid, LinearRgb, MipChain, Normal, NormalTable, Pose, QuantizedMap};
 
 const MATTE: [Material; 1] = [Material::MATTE_WHITE];
 
@@ -99,6 +99,31 @@ fn texture_coordinates_are_perspective_correct() {
     assert!(seen > 3000, "{seen}");
     // Corners snap to 1/256 of a pixel; a pixel near the horizon spans much of the plane.
     assert!(worst < 2e-4, "{worst}");
+}
+
+/// A map whose halves are of one colour each: at the rim of a plane a clamped one must not show the other half.
+#[test]
+fn clamped_maps_do_not_bleed_at_the_rim() {
+    let mesh = shapes::plane(1.0).unwrap();
+    let camera = Camera::new(Vec3::new(0.0, 0.0, 1.7), Vec3::ZERO, Vec3::Y, 0.7, 0.05, 10.0).unwrap();
+    let half = |x: u32, _| if x < 4 { LinearRgb::new(1.0, 0.0, 0.0) } else { LinearRgb::new(0.0, 0.0, 1.0) };
+    let levels = MipChain::single(Grid::from_fn(8, 8, half).unwrap());
+    let size = (101, 101);
+    for repeat in [1.0, 3.0] {
+        let bled = |edges| {
+            let base_color = Some(BaseColor { levels: &levels, repeat: Vec2::new(repeat, 1.0) });
+            let object = Object { base_color, edges, ..smooth(&mesh) };
+            let lighting = Lighting { ambient: LinearRgb::WHITE, lights: vec![] };
+            let scene = Scene { objects: vec![object], lighting, camera };
+            let target = render(&scene, Method::Exact, TextureFilter::Bilinear, size);
+            let covered = |x: &u32| target.depth(*x, 50).is_some();
+            let (left, right) = ((0..101).find(covered).unwrap(), (0..101).rev().find(covered).unwrap());
+            assert!(right - left > 60, "{left} … {right}");
+            target.color(left, 50).b + target.color(right, 50).r
+        };
+        assert_eq!(bled(Edges::Clamp), 0.0);
+        assert!(bled(Edges::Wrap) > 0.3, "the test sees nothing");
+    }
 }
 
 #[test]

@@ -78,8 +78,7 @@ impl Relief {
         let model = LightingModel::BlinnPhong;
         let materials = [material];
         let mesh = &self.mesh;
-        let pose = Pose::IDENTITY;
-        let object = Object { mesh, pose, detail, base_color: None, materials: &materials, model, double_sided: false };
+        let object = Object { model, ..Object::new(mesh, detail, &materials) };
         let (elevation, fov) = (15.0f32.to_radians(), 30.0f32.to_radians());
         let camera = Camera::orbit(mesh.bounding_sphere(), 0.0, elevation, 1.05, fov, 1.0).unwrap();
         let scene = Scene { objects: vec![object], lighting: lighting(), camera };

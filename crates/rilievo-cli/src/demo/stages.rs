@@ -265,13 +265,10 @@ impl<'a> Demo<'a> {
         let materials = vase::materials_over_color();
         let sphere = self.mesh.bounding_sphere();
         let object = Object {
-            mesh: &self.mesh,
             pose: Pose::turned_about(sphere.0, turn_rad),
-            detail,
             base_color: Some(BaseColor { levels: &self.color, repeat: Vec2::ONE }),
-            materials: &materials,
             model: LightingModel::BlinnPhong,
-            double_sided: false,
+            ..Object::new(&self.mesh, detail, &materials)
         };
         let aspect = size.0 as f32 / size.1 as f32;
         // The vase is taller than wide: the sphere about it need not fit the width.

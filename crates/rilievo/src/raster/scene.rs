@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
 use crate::error::{Error, Result};
-use crate::grid::Grid;
+use crate::grid::{Edges, Grid};
 use crate::indexed::QuantizedMap;
 use crate::light::{Lighting, LightingModel, Material};
 use crate::mip::MipChain;
@@ -62,6 +62,11 @@ pub struct Object<'a> {
     pub base_color: Option<BaseColor<'a>>,
     /// Material `m` of the map is `materials[m]`.
     pub materials: &'a [Material],
+    /// What lies beyond the texture square for all its maps; glTF's default sampler wraps.
+    ///
+    /// Wrapped maps meet their opposite border there. Any other choice keeps each copy of a map to itself, as it was
+    /// bent by [`crate::surface::deflect_heights`] with the same edges.
+    pub edges: Edges,
     /// How it answers light.
     pub model: LightingModel,
     /// Whether back faces are drawn too (with the same normals).
@@ -69,10 +74,10 @@ pub struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// An object at the origin of the world, without a base colour, lit by the default model, back faces hidden.
+    /// An object at the origin of the world, without a base colour, its maps wrapped, lit by the default model, back faces hidden.
     pub fn new(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Self {
         let (pose, model) = (Pose::IDENTITY, LightingModel::default());
-        Self { mesh, pose, detail, base_color: None, materials, model, double_sided: false }
+        Self { mesh, pose, detail, base_color: None, materials, edges: Edges::Wrap, model, double_sided: false }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::indexed::QuantizedMap;
 use crate::light::{Lighting, Shade, ShadeTable};
 use crate::normal::{Normal, Object as ObjectSpace};
 use crate::raster::scene::{Detail, Fragment, Object};
-use crate::raster::texture::{Taps, TextureFilter};
+use crate::raster::texture::{Sampling, Taps};
 
 /// An index map and its lit table (Tarini et al. 2000, § 5).
 pub(super) struct Table<'a> {
@@ -30,9 +30,9 @@ impl<'a> Table<'a> {
     }
 
     /// Looks up each texel, then filters the colours: indices are never averaged.
-    pub(super) fn shade(&self, fragment: &Fragment, filter: TextureFilter) -> Shade {
+    pub(super) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let levels = self.map.indices();
-        Taps::gather(levels, filter, &fragment.footprint).iter().fold(Shade::default(), |sum, tap| {
+        Taps::gather(levels, sampling, &fragment.footprint).iter().fold(Shade::default(), |sum, tap| {
             let index = levels.levels()[tap.level][(tap.x, tap.y)];
             sum.add_weighted(self.table.entries()[usize::from(index)], tap.weight)
         })

@@ -42,7 +42,7 @@ fn camera(mesh: &Mesh, azimuth_deg: f32, elevation_deg: f32) -> Camera {
 
 fn object<'a>(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Object<'a> {
     let model = LightingModel::BlinnPhong;
-    Object { mesh, pose: Pose::IDENTITY, detail, base_color: None, materials, model, double_sided: false }
+    Object { model, ..Object::new(mesh, detail, materials) }
 }
 
 fn render(object: Object<'_>, camera: Camera, method: Method, (width, height): (u32, u32)) -> Picture {
