@@ -151,6 +151,41 @@ fn from_inside_the_near_plane_cuts_but_leaves_no_hole() {
     assert_eq!(render(&scene, Method::Exact, TextureFilter::Nearest, (80, 60)).covered_pixels(), 0);
 }
 
+/// From behind, a plane is lit by what shines on its back, whatever its normals come from.
+#[test]
+fn back_faces_are_lit_from_behind() {
+    let mesh = shapes::plane(1.0).unwrap().with_tangents().unwrap();
+    let tilted = Normal::new(Vec3::new(0.3, -0.2, 0.9)).unwrap();
+    let object_space = MipChain::single(Grid::filled(1, 1, tilted).unwrap());
+    let tangent_space = MipChain::single(Grid::filled(1, 1, tilted.relabel()).unwrap());
+    let indices = MipChain::single(Grid::filled(1, 1, 0u16).unwrap());
+    let map = QuantizedMap::new(NormalTable::new(vec![tilted]).unwrap(), indices).unwrap();
+    let camera = Camera::new(Vec3::NEG_Z * 2.0, Vec3::ZERO, Vec3::Y, 0.7, 0.05, 10.0).unwrap();
+    let details = [
+        (Method::Table, Detail::Indexed(&map)),
+        (Method::Exact, Detail::Indexed(&map)),
+        (Method::Exact, Detail::Smooth),
+        (Method::Exact, Detail::Object { normals: &object_space, materials: None }),
+        (Method::Exact, Detail::Tangent { normals: &tangent_space, repeat: Vec2::ONE, materials: None }),
+    ];
+    for (method, detail) in details {
+        let middle = |direction, double_sided| {
+            let object = Object { detail, double_sided, ..smooth(&mesh) };
+            let scene = Scene { objects: vec![object], lighting: light_from(direction), camera };
+            let target = render(&scene, method, TextureFilter::Bilinear, (33, 33));
+            target.depth(16, 16).map(|_| target.color(16, 16).g)
+        };
+        let normal = if matches!(detail, Detail::Smooth) { Vec3::Z } else { tilted.vec() };
+        let ambient = middle(Vec3::Z, true).unwrap();
+        assert!(ambient < 0.03, "{method:?}, {detail:?}: {ambient} by a light in front");
+        let lit = middle(Vec3::NEG_Z, true).unwrap() - ambient;
+        // White, Lambert: the cosine.
+        let expected = normal.z * MATTE[0].diffuse.g;
+        assert!((lit - expected).abs() < 1e-5, "{method:?}, {detail:?}: {lit}, not {expected}, by a light behind");
+        assert_eq!(middle(Vec3::NEG_Z, false), None);
+    }
+}
+
 #[test]
 fn triangles_beyond_the_guard_band_are_cut_not_lost() {
     let far = 1e6;

@@ -58,6 +58,8 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampli
 /// A clipped, projected triangle.
 struct ScreenTriangle {
     shape: Triangle,
+    /// Seen from behind.
+    back_facing: bool,
     corners: [Corner; 3],
     /// Change of the screen barycentrics to the next pixel to the right and below.
     lambda_dx: [f64; 3],
@@ -86,11 +88,12 @@ fn set_up(object: &Object<'_>, frame: &Frame<'_>, (width, height): (u32, u32)) -
             let screen = corners.map(|c| to_screen(c.position));
             let Some(shape) = Triangle::new(screen) else { continue };
             // Counter-clockwise in the world is counter-clockwise to the eye.
-            if shape.is_clockwise() && !object.double_sided {
+            let back_facing = shape.is_clockwise();
+            if back_facing && !object.double_sided {
                 continue;
             }
             let [lambda_dx, lambda_dy] = barycentric_gradients(screen);
-            out.push(ScreenTriangle { shape, corners, lambda_dx, lambda_dy, vertices });
+            out.push(ScreenTriangle { shape, back_facing, corners, lambda_dx, lambda_dy, vertices });
         }
     }
     out
@@ -143,6 +146,7 @@ impl ScreenTriangle {
             position: mix(mesh.positions(), self.vertices, mixed(weights), Vec3::ZERO),
             normal: mix(mesh.normals(), self.vertices, mixed(weights), Vec3::ZERO),
             tangent: mix(mesh.tangents(), self.vertices, mixed(weights), Vec4::ZERO),
+            back_facing: self.back_facing,
         }
     }
 }

@@ -35,6 +35,7 @@ impl<'a> Exact<'a> {
                 Detail::Tangent { .. } => frame.to_object(Normal::new_or(part.sum, Normal::Z)),
                 Detail::Object { .. } | Detail::Indexed(_) => Normal::new_or(part.sum, smooth),
             };
+            let normal = if fragment.back_facing { Normal::from_unit(-normal.vec()) } else { normal };
             let material = &self.materials[usize::from(part.material)];
             total = total.add_weighted(shade(self.model, material, &self.lighting, normal, view), part.weight);
         }

@@ -69,7 +69,7 @@ pub struct Object<'a> {
     pub edges: Edges,
     /// How it answers light.
     pub model: LightingModel,
-    /// Whether back faces are drawn too (with the same normals).
+    /// Whether back faces are drawn too, with their normals reversed, as glTF has it.
     pub double_sided: bool,
 }
 
@@ -110,6 +110,8 @@ pub(super) struct Fragment {
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
     pub(super) tangent: Vec4,
+    /// Seen from behind: the true normal is the negative of whatever the mesh and its map say.
+    pub(super) back_facing: bool,
 }
 
 /// The shading of one object for one frame.
