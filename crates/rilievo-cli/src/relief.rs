@@ -176,11 +176,12 @@ impl ReliefArgs {
     fn load_source(&self, method: Method, samples: Option<&vase::VaseMaps>, progress: &Bars) -> Result<(Mesh, Source)> {
         let aspect = |(w, h): (u32, u32)| w as f32 / h as f32;
         if let Some(path) = &self.height {
-            let map = crate::commands::normal::read_height(&self.heights, path)?;
+            let (map, covered) = crate::commands::normal::read_height(&self.heights, path)?;
             let mesh = self.surface.load(aspect(map.heights().size()))?;
             let options = self.onto.options(&self.surface, map.heights().size())?;
             let (filter, edges) = (self.heights.filter(), self.heights.edges());
-            return Ok((mesh.clone(), bent(deflect_heights(&mesh, &map, filter, edges, &options, progress)?)));
+            let bent_map = deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, progress)?;
+            return Ok((mesh, bent(bent_map)));
         }
         if let Some(path) = &self.normals {
             if SpaceKind::from(self.space) == SpaceKind::Object {
@@ -195,7 +196,7 @@ impl ReliefArgs {
                 return Ok((mesh, Source::Tangent(image.normals)));
             }
             let options = self.onto.options(&self.surface, image.normals.size())?;
-            let deflected = deflect_normals(&mesh, &image.normals, &options, progress)?;
+            let deflected = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress)?;
             return Ok((mesh, bent(deflected)));
         }
         if let Some(path) = &self.indexed {
@@ -208,7 +209,7 @@ impl ReliefArgs {
             let mesh = self.surface.load(1.0)?;
             let options = self.onto.options(&self.surface, samples.height.heights().size())?;
             let (filter, edges) = (self.heights.filter(), rilievo::Edges::Wrap);
-            let deflected = deflect_heights(&mesh, &samples.height, filter, edges, &options, progress)?;
+            let deflected = deflect_heights(&mesh, &samples.height, None, filter, edges, &options, progress)?;
             return Ok((mesh, bent(deflected)));
         }
         Ok((self.surface.load(1.0)?, Source::Nothing))

@@ -58,7 +58,7 @@ struct Relief {
 
 impl Relief {
     fn new(mesh: Mesh, map: &HeightMap, edges: Edges, options: &Deflect) -> Self {
-        let bent = deflect_heights(&mesh, map, Filter::Plane4, edges, options, &Silent).unwrap();
+        let bent = deflect_heights(&mesh, map, None, Filter::Plane4, edges, options, &Silent).unwrap();
         let options =
             Options { entries: ENTRIES, covered: Some(&bent.covered), mip_levels: true, ..Options::default() };
         let quantized = quantize(&bent.normals, &options, &Silent).unwrap();

@@ -102,7 +102,7 @@ impl<'a> Demo<'a> {
 
     fn flat_normals(&self) -> Result<(NormalMap<Tangent>, Section)> {
         let started = Instant::now();
-        let normals = to_normals(&self.maps.height, Filter::Plane4, Edges::Wrap);
+        let normals = to_normals(&self.maps.height, None, Filter::Plane4, Edges::Wrap);
         let seconds = started.elapsed().as_secs_f64();
         let file = self.write(
             "normal_gl.png",
@@ -152,7 +152,8 @@ impl<'a> Demo<'a> {
     fn bend(&self, bars: &Bars) -> Result<(Deflected, Section)> {
         let started = Instant::now();
         let options = Deflect::new(self.maps.height.heights().size());
-        let deflected = deflect_heights(&self.mesh, &self.maps.height, Filter::Plane4, Edges::Wrap, &options, bars)?;
+        let deflected =
+            deflect_heights(&self.mesh, &self.maps.height, None, Filter::Plane4, Edges::Wrap, &options, bars)?;
         let seconds = started.elapsed().as_secs_f64();
         let bytes = io::encode_normals_png16(&deflected.normals, Convention::Gl, Some(&deflected.covered))?;
         let file = self.write("object.png", &bytes, "object-space normal map, 16 bits; the gutter is transparent")?;
