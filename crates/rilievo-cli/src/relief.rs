@@ -13,7 +13,7 @@ use rilievo::quantize::{self, Effort, Options};
 use rilievo::raster::{BaseColor, Detail, Method};
 use rilievo::sample::vase;
 use rilievo::surface::{Deflected, Mesh, deflect_heights, deflect_normals};
-use rilievo::{Grid, LinearRgb, MaterialMap, MipChain, Object, QuantizedMap, Tangent};
+use rilievo::{Edges, Grid, LinearRgb, MaterialMap, MipChain, Object, QuantizedMap, Tangent};
 use rilievo_io::{AnyIndexed, ImportAs, SpaceKind};
 
 use crate::args::{ConventionArg, EffortArg, Given, HeightArgs, OntoArgs, SpaceArg};
@@ -186,6 +186,11 @@ impl ReliefArgs {
         maps.into_iter().filter_map(Option::as_deref).chain(self.surface.path()).collect()
     }
 
+    /// What maps continue with beyond the texture square. A map that repeats over it has no edge there.
+    pub(crate) fn edges(&self) -> Edges {
+        if self.onto.repeat(&self.surface) == [1.0, 1.0] { self.heights.edges() } else { Edges::Wrap }
+    }
+
     fn has_no_map(&self) -> bool {
         self.height.is_none() && self.normals.is_none() && self.indexed.is_none()
     }
@@ -220,11 +225,12 @@ impl ReliefArgs {
     ) -> Result<(Mesh, Source)> {
         let aspect = |(w, h): (u32, u32)| w as f32 / h as f32;
         if let Some(path) = &self.height {
-            let map = crate::commands::normal::read_height(&self.heights, path)?;
+            let (map, covered) = crate::commands::normal::read_height(&self.heights, path)?;
             let mesh = self.surface.load(aspect(map.heights().size()))?;
             let options = self.onto.options(&self.surface, map.heights().size())?;
             let (filter, edges) = (self.heights.filter(), self.heights.edges());
-            return Ok((mesh.clone(), bent(deflect_heights(&mesh, &map, filter, edges, &options, progress)?)));
+            let bent_map = deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, progress)?;
+            return Ok((mesh, bent(bent_map)));
         }
         if let Some(path) = &self.normals {
             if SpaceKind::from(self.space) == SpaceKind::Object {
@@ -239,7 +245,7 @@ impl ReliefArgs {
                 return Ok((mesh, Source::Tangent(image.normals)));
             }
             let options = self.onto.options(&self.surface, image.normals.size())?;
-            let deflected = deflect_normals(&mesh, &image.normals, &options, progress)?;
+            let deflected = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress)?;
             return Ok((mesh, bent(deflected)));
         }
         if let Some(path) = &self.indexed {
@@ -254,7 +260,7 @@ impl ReliefArgs {
             let depth = if given.has("depth") { self.heights.depth } else { samples.height.depth() };
             let map = HeightMap::new(samples.height.heights().clone(), depth)?;
             let (filter, edges) = (self.heights.filter(), self.heights.edges());
-            let deflected = deflect_heights(&mesh, &map, filter, edges, &options, progress)?;
+            let deflected = deflect_heights(&mesh, &map, None, filter, edges, &options, progress)?;
             return Ok((mesh, bent(deflected)));
         }
         Ok((self.surface.load(1.0)?, Source::Nothing))

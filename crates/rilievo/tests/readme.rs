@@ -21,7 +21,7 @@ fn pipeline() -> rilievo::Result<()> {
 
     let mesh = shapes::torus(48, 24, 1.0, 0.4)?;
     let options = Deflect { repeat: [6.0, 2.0], ..Deflect::new((768, 256)) };
-    let bent = deflect_heights(&mesh, &relief, Filter::Plane4, Edges::Wrap, &options, &Silent)?;
+    let bent = deflect_heights(&mesh, &relief, None, Filter::Plane4, Edges::Wrap, &options, &Silent)?;
 
     let options = quantize::Options { entries: 1024, covered: Some(&bent.covered), mip_levels: true, ..Default::default() };
     let quantized = quantize::quantize(&bent.normals, &options, &Silent)?;

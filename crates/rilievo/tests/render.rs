@@ -5,7 +5,7 @@ use glam::{DVec3, Vec2, Vec3};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material};
 use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, Target, TextureFilter, draw, prepare};
 use rilievo::surface::{Camera, Mesh, MeshParts, shapes};
-use rilievo::{Grid, LinearRgb, MipChain, Normal, NormalTable, Pose, QuantizedMap};
+use rilievo::{Edges, Grid, LinearRgb, MipChain, Normal, NormalTable, Pose, QuantizedMap};
 
 const MATTE: [Material; 1] = [Material::MATTE_WHITE];
 
@@ -101,6 +101,31 @@ fn texture_coordinates_are_perspective_correct() {
     assert!(worst < 2e-4, "{worst}");
 }
 
+/// A map whose halves are of one colour each: at the rim of a plane a clamped one must not show the other half.
+#[test]
+fn clamped_maps_do_not_bleed_at_the_rim() {
+    let mesh = shapes::plane(1.0).unwrap();
+    let camera = Camera::new(Vec3::new(0.0, 0.0, 1.7), Vec3::ZERO, Vec3::Y, 0.7, 0.05, 10.0).unwrap();
+    let half = |x: u32, _| if x < 4 { LinearRgb::new(1.0, 0.0, 0.0) } else { LinearRgb::new(0.0, 0.0, 1.0) };
+    let levels = MipChain::single(Grid::from_fn(8, 8, half).unwrap());
+    let size = (101, 101);
+    for repeat in [1.0, 3.0] {
+        let bled = |edges| {
+            let base_color = Some(BaseColor { levels: &levels, repeat: Vec2::new(repeat, 1.0) });
+            let object = Object { base_color, edges, ..smooth(&mesh) };
+            let lighting = Lighting { ambient: LinearRgb::WHITE, lights: vec![] };
+            let scene = Scene { objects: vec![object], lighting, camera };
+            let target = render(&scene, Method::Exact, TextureFilter::Bilinear, size);
+            let covered = |x: &u32| target.depth(*x, 50).is_some();
+            let (left, right) = ((0..101).find(covered).unwrap(), (0..101).rev().find(covered).unwrap());
+            assert!(right - left > 60, "{left} … {right}");
+            target.color(left, 50).b + target.color(right, 50).r
+        };
+        assert_eq!(bled(Edges::Clamp), 0.0);
+        assert!(bled(Edges::Wrap) > 0.3, "the test sees nothing");
+    }
+}
+
 #[test]
 fn nearer_surfaces_win_in_either_order() {
     let (near, far) = (shapes::sphere(32, 16).unwrap(), shapes::cube(shapes::CubeUvs::EachFace).unwrap());
@@ -124,6 +149,41 @@ fn from_inside_the_near_plane_cuts_but_leaves_no_hole() {
     // Seen from inside, all faces are back faces.
     let scene = Scene { objects: vec![smooth(&mesh)], ..scene };
     assert_eq!(render(&scene, Method::Exact, TextureFilter::Nearest, (80, 60)).covered_pixels(), 0);
+}
+
+/// From behind, a plane is lit by what shines on its back, whatever its normals come from.
+#[test]
+fn back_faces_are_lit_from_behind() {
+    let mesh = shapes::plane(1.0).unwrap().with_tangents().unwrap();
+    let tilted = Normal::new(Vec3::new(0.3, -0.2, 0.9)).unwrap();
+    let object_space = MipChain::single(Grid::filled(1, 1, tilted).unwrap());
+    let tangent_space = MipChain::single(Grid::filled(1, 1, tilted.relabel()).unwrap());
+    let indices = MipChain::single(Grid::filled(1, 1, 0u16).unwrap());
+    let map = QuantizedMap::new(NormalTable::new(vec![tilted]).unwrap(), indices).unwrap();
+    let camera = Camera::new(Vec3::NEG_Z * 2.0, Vec3::ZERO, Vec3::Y, 0.7, 0.05, 10.0).unwrap();
+    let details = [
+        (Method::Table, Detail::Indexed(&map)),
+        (Method::Exact, Detail::Indexed(&map)),
+        (Method::Exact, Detail::Smooth),
+        (Method::Exact, Detail::Object { normals: &object_space, materials: None }),
+        (Method::Exact, Detail::Tangent { normals: &tangent_space, repeat: Vec2::ONE, materials: None }),
+    ];
+    for (method, detail) in details {
+        let middle = |direction, double_sided| {
+            let object = Object { detail, double_sided, ..smooth(&mesh) };
+            let scene = Scene { objects: vec![object], lighting: light_from(direction), camera };
+            let target = render(&scene, method, TextureFilter::Bilinear, (33, 33));
+            target.depth(16, 16).map(|_| target.color(16, 16).g)
+        };
+        let normal = if matches!(detail, Detail::Smooth) { Vec3::Z } else { tilted.vec() };
+        let ambient = middle(Vec3::Z, true).unwrap();
+        assert!(ambient < 0.03, "{method:?}, {detail:?}: {ambient} by a light in front");
+        let lit = middle(Vec3::NEG_Z, true).unwrap() - ambient;
+        // White, Lambert: the cosine.
+        let expected = normal.z * MATTE[0].diffuse.g;
+        assert!((lit - expected).abs() < 1e-5, "{method:?}, {detail:?}: {lit}, not {expected}, by a light behind");
+        assert_eq!(middle(Vec3::NEG_Z, false), None);
+    }
 }
 
 #[test]

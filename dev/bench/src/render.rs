@@ -59,7 +59,7 @@ impl Subject {
     ) -> Result<Self> {
         let deflect = Deflect::new(height.heights().size());
         let Deflected { normals, covered, .. } =
-            deflect_heights(&mesh, height, Filter::Plane4, Edges::Wrap, &deflect, &Silent)?;
+            deflect_heights(&mesh, height, None, Filter::Plane4, Edges::Wrap, &deflect, &Silent)?;
         let options = Options {
             entries: ENTRIES,
             materials: material_of.as_ref(),

@@ -19,9 +19,7 @@ use rilievo::progress::Silent;
 use rilievo::quantize::{Options, Quantized, quantize};
 use rilievo::raster::{Detail, Method, Object, Scene, Target, TextureFilter, draw, prepare};
 use rilievo::surface::{Camera, Deflect, Mesh, deflect_heights, shapes};
-use rilievo::{
-    Convention, Edges, Grid, LinearRgb, MipChain, Normal, Object as ObjectSpace, Pose, Rgba8, Space, Tangent,
-};
+use rilievo::{Convention, Edges, Grid, LinearRgb, MipChain, Normal, Object as ObjectSpace, Rgba8, Space, Tangent};
 use rilievo_io::{
     Limits, PalettePng, Source, decode_height, decode_mesh, decode_normals, decode_picture, encode_indexed_png,
     encode_normals_png16,
@@ -58,7 +56,7 @@ struct Relief {
 
 impl Relief {
     fn new(mesh: Mesh, map: &HeightMap, edges: Edges, options: &Deflect) -> Self {
-        let bent = deflect_heights(&mesh, map, Filter::Plane4, edges, options, &Silent).unwrap();
+        let bent = deflect_heights(&mesh, map, None, Filter::Plane4, edges, options, &Silent).unwrap();
         let options =
             Options { entries: ENTRIES, covered: Some(&bent.covered), mip_levels: true, ..Options::default() };
         let quantized = quantize(&bent.normals, &options, &Silent).unwrap();
@@ -78,8 +76,7 @@ impl Relief {
         let model = LightingModel::BlinnPhong;
         let materials = [material];
         let mesh = &self.mesh;
-        let pose = Pose::IDENTITY;
-        let object = Object { mesh, pose, detail, base_color: None, materials: &materials, model, double_sided: false };
+        let object = Object { model, ..Object::new(mesh, detail, &materials) };
         let (elevation, fov) = (15.0f32.to_radians(), 30.0f32.to_radians());
         let camera = Camera::orbit(mesh.bounding_sphere(), 0.0, elevation, 1.05, fov, 1.0).unwrap();
         let scene = Scene { objects: vec![object], lighting: lighting(), camera };

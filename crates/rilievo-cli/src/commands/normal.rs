@@ -110,12 +110,12 @@ fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
             let image = inputs::normals::<Tangent>(input, args.convention.into())?;
             let options = args.deflect.options(onto, image.normals.size())?;
             let mesh = onto.load(aspect(&image.normals))?;
-            deflect_normals(&mesh.with_tangents()?, &image.normals, &options, &progress)?
+            deflect_normals(&mesh.with_tangents()?, &image.normals, image.covered.as_ref(), &options, &progress)?
         } else {
-            let map = read_height(&args.height, input)?;
+            let (map, covered) = read_height(&args.height, input)?;
             let options = args.deflect.options(onto, map.heights().size())?;
             let mesh = onto.load(aspect(map.heights()))?;
-            deflect_height_map(&mesh, &map, &args.height, &options, &progress)?
+            deflect_height_map(&mesh, &map, covered.as_ref(), &args.height, &options, &progress)?
         };
         crate::relief::remark_overlaps(&deflected);
         write::<Object>(args, &deflected.normals, Some(&deflected.covered), output)?;
@@ -132,20 +132,22 @@ fn is_exr(output: &Path) -> bool {
     output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
-/// Reads a height map with its scale.
-pub(crate) fn read_height(args: &HeightArgs, input: &Path) -> Result<HeightMap> {
-    Ok(HeightMap::new(inputs::height(input)?.heights, args.depth)?)
+/// Reads a height map with its scale, and where it is covered (`None` if everywhere).
+pub(crate) fn read_height(args: &HeightArgs, input: &Path) -> Result<(HeightMap, Option<Grid<bool>>)> {
+    let image = inputs::height(input)?;
+    Ok((HeightMap::new(image.heights, args.depth)?, image.covered))
 }
 
 /// Bends a height map onto a mesh.
 pub(crate) fn deflect_height_map(
     mesh: &rilievo::surface::Mesh,
     map: &HeightMap,
+    covered: Option<&Grid<bool>>,
     args: &HeightArgs,
     options: &Deflect,
     progress: &Bars,
 ) -> Result<rilievo::surface::Deflected> {
-    Ok(deflect_heights(mesh, map, args.filter(), args.edges(), options, progress)?)
+    Ok(deflect_heights(mesh, map, covered, args.filter(), args.edges(), options, progress)?)
 }
 
 fn aspect<T>(map: &Grid<T>) -> f32 {

@@ -146,14 +146,13 @@ impl<'a> Shoot<'a> {
         let turn = frame as f32 / args.frames as f32 * std::f32::consts::TAU;
         let turn_of = |what: Turn| if args.turn == what { turn } else { 0.0 };
         let object = Object {
-            mesh: &self.relief.mesh,
             // About the middle of the object, not about its origin.
             pose: Pose::turned_about(self.relief.mesh.bounding_sphere().0, turn_of(Turn::Object)),
-            detail: self.relief.detail(),
             base_color: self.relief.base_color(),
-            materials: &self.materials,
             model: args.light.model(),
             double_sided: args.double_sided,
+            edges: args.relief.edges(),
+            ..Object::new(&self.relief.mesh, self.relief.detail(), &self.materials)
         };
         let aspect = args.size.width as f32 / args.size.height as f32;
         let scene = Scene {

@@ -152,7 +152,8 @@ impl<'a> Demo<'a> {
     fn bend(&self, bars: &Bars) -> Result<(Deflected, Section)> {
         let started = Instant::now();
         let options = Deflect::new(self.maps.height.heights().size());
-        let deflected = deflect_heights(&self.mesh, &self.maps.height, Filter::Plane4, Edges::Wrap, &options, bars)?;
+        let deflected =
+            deflect_heights(&self.mesh, &self.maps.height, None, Filter::Plane4, Edges::Wrap, &options, bars)?;
         let seconds = started.elapsed().as_secs_f64();
         let bytes = io::encode_normals_png16(&deflected.normals, Convention::Gl, Some(&deflected.covered))?;
         let file = self.write("object.png", &bytes, "object-space normal map, 16 bits; the gutter is transparent")?;
@@ -265,13 +266,10 @@ impl<'a> Demo<'a> {
         let materials = vase::materials_over_color();
         let sphere = self.mesh.bounding_sphere();
         let object = Object {
-            mesh: &self.mesh,
             pose: Pose::turned_about(sphere.0, turn_rad),
-            detail,
             base_color: Some(BaseColor { levels: &self.color, repeat: Vec2::ONE }),
-            materials: &materials,
             model: LightingModel::BlinnPhong,
-            double_sided: false,
+            ..Object::new(&self.mesh, detail, &materials)
         };
         let aspect = size.0 as f32 / size.1 as f32;
         // The vase is taller than wide: the sphere about it need not fit the width.

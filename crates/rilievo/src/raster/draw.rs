@@ -8,7 +8,7 @@ use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::scene::{Fragment, Frame, Object, Shading};
 use crate::raster::target::{Pixel, Target};
-use crate::raster::texture::{Footprint, Taps, TextureFilter};
+use crate::raster::texture::{Footprint, Sampling, Taps};
 use crate::surface::Mesh;
 
 /// Rows one task draws. Bands are independent, so pictures do not depend on the number of threads.
@@ -22,6 +22,7 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     let (width, height) = target.size();
     for (object, shading) in frame.scene.objects.iter().zip(&frame.shadings) {
         let triangles = set_up(object, frame, (width, height));
+        let sampling = Sampling { filter: frame.filter, edges: object.edges, repeat: Vec2::ONE };
         let band_len = width as usize * BAND_ROWS;
         par::for_each_row(target.pixels.texels_mut(), band_len, |band, pixels| {
             let first_row = (band * BAND_ROWS) as u32;
@@ -32,7 +33,7 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
                     let depth = triangle.depth(lambda);
                     if depth < pixel.depth {
                         let fragment = triangle.fragment(object.mesh, lambda);
-                        let color = color(object, shading, &fragment, frame.filter);
+                        let color = color(object, shading, &fragment, sampling);
                         *pixel = Pixel { color, depth };
                     }
                 });
@@ -41,13 +42,13 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     }
 }
 
-fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, filter: TextureFilter) -> LinearRgb {
+fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
     let shade = match shading {
-        Shading::Table(table) => table.shade(fragment, filter),
-        Shading::Exact(exact) => exact.shade(fragment, filter),
+        Shading::Table(table) => table.shade(fragment, sampling),
+        Shading::Exact(exact) => exact.shade(fragment, sampling),
     };
     let base = object.base_color.map_or(LinearRgb::WHITE, |base| {
-        Taps::gather(base.levels, filter, &fragment.footprint.repeated(base.repeat))
+        Taps::gather(base.levels, Sampling { repeat: base.repeat, ..sampling }, &fragment.footprint)
             .iter()
             .fold(LinearRgb::BLACK, |sum, tap| sum + base.levels.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
     });
@@ -57,6 +58,8 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, filter
 /// A clipped, projected triangle.
 struct ScreenTriangle {
     shape: Triangle,
+    /// Seen from behind.
+    back_facing: bool,
     corners: [Corner; 3],
     /// Change of the screen barycentrics to the next pixel to the right and below.
     lambda_dx: [f64; 3],
@@ -85,11 +88,12 @@ fn set_up(object: &Object<'_>, frame: &Frame<'_>, (width, height): (u32, u32)) -
             let screen = corners.map(|c| to_screen(c.position));
             let Some(shape) = Triangle::new(screen) else { continue };
             // Counter-clockwise in the world is counter-clockwise to the eye.
-            if shape.is_clockwise() && !object.double_sided {
+            let back_facing = shape.is_clockwise();
+            if back_facing && !object.double_sided {
                 continue;
             }
             let [lambda_dx, lambda_dy] = barycentric_gradients(screen);
-            out.push(ScreenTriangle { shape, corners, lambda_dx, lambda_dy, vertices });
+            out.push(ScreenTriangle { shape, back_facing, corners, lambda_dx, lambda_dy, vertices });
         }
     }
     out
@@ -142,6 +146,7 @@ impl ScreenTriangle {
             position: mix(mesh.positions(), self.vertices, mixed(weights), Vec3::ZERO),
             normal: mix(mesh.normals(), self.vertices, mixed(weights), Vec3::ZERO),
             tangent: mix(mesh.tangents(), self.vertices, mixed(weights), Vec4::ZERO),
+            back_facing: self.back_facing,
         }
     }
 }

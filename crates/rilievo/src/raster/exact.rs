@@ -6,7 +6,7 @@ use crate::light::{Lighting, LightingModel, Material, Shade, shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Space};
 use crate::raster::scene::{Detail, Fragment, Object};
-use crate::raster::texture::{Footprint, Taps, TextureFilter};
+use crate::raster::texture::{Footprint, Sampling, Taps};
 use crate::surface::Frame;
 
 /// Filters the normals, normalises, and evaluates the lighting model with the pixel's own view direction.
@@ -24,17 +24,18 @@ impl<'a> Exact<'a> {
         Self { detail: object.detail, materials: object.materials, model: object.model, lighting, eye }
     }
 
-    pub(super) fn shade(&self, fragment: &Fragment, filter: TextureFilter) -> Shade {
+    pub(super) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let smooth = Normal::new_or(fragment.normal, Normal::Z);
         let view = Normal::new_or(self.eye - fragment.position, smooth);
         let frame = Frame::from_mikk(fragment.normal, fragment.tangent);
         let mut total = Shade::default();
-        for part in self.gather(fragment, filter).iter() {
+        for part in self.gather(fragment, sampling).iter() {
             let normal = match self.detail {
                 Detail::Smooth => smooth,
                 Detail::Tangent { .. } => frame.to_object(Normal::new_or(part.sum, Normal::Z)),
                 Detail::Object { .. } | Detail::Indexed(_) => Normal::new_or(part.sum, smooth),
             };
+            let normal = if fragment.back_facing { Normal::from_unit(-normal.vec()) } else { normal };
             let material = &self.materials[usize::from(part.material)];
             total = total.add_weighted(shade(self.model, material, &self.lighting, normal, view), part.weight);
         }
@@ -42,20 +43,20 @@ impl<'a> Exact<'a> {
     }
 
     /// The map's normals under the pixel, summed per material.
-    fn gather(&self, fragment: &Fragment, filter: TextureFilter) -> Parts {
+    fn gather(&self, fragment: &Fragment, sampling: Sampling) -> Parts {
         let mut parts = Parts::default();
         match self.detail {
             Detail::Smooth => parts.add(0, Vec3::ZERO, 1.0),
             Detail::Tangent { normals, repeat, materials } => {
-                let footprint = fragment.footprint.repeated(repeat);
-                gather_map(&mut parts, normals, materials, &footprint, filter);
+                let sampling = Sampling { repeat, ..sampling };
+                gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);
             }
             Detail::Object { normals, materials } => {
-                gather_map(&mut parts, normals, materials, &fragment.footprint, filter);
+                gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);
             }
             Detail::Indexed(map) => {
                 let levels = map.indices();
-                for tap in Taps::gather(levels, filter, &fragment.footprint).iter() {
+                for tap in Taps::gather(levels, sampling, &fragment.footprint).iter() {
                     let index = levels.levels()[tap.level][(tap.x, tap.y)];
                     let normal = map.table().normals()[usize::from(index)];
                     parts.add(map.table().material_of(index), normal.vec(), tap.weight);
@@ -71,9 +72,9 @@ fn gather_map<S: Space>(
     normals: &MipChain<Normal<S>>,
     materials: Option<&MipChain<u8>>,
     footprint: &Footprint,
-    filter: TextureFilter,
+    sampling: Sampling,
 ) {
-    for tap in Taps::gather(normals, filter, footprint).iter() {
+    for tap in Taps::gather(normals, sampling, footprint).iter() {
         let at = (tap.x, tap.y);
         let material = materials.map_or(0, |m| m.levels()[tap.level][at]);
         parts.add(material, normals.levels()[tap.level][at].vec(), tap.weight);

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
 use crate::error::{Error, Result};
-use crate::grid::Grid;
+use crate::grid::{Edges, Grid};
 use crate::indexed::QuantizedMap;
 use crate::light::{Lighting, LightingModel, Material};
 use crate::mip::MipChain;
@@ -62,17 +62,22 @@ pub struct Object<'a> {
     pub base_color: Option<BaseColor<'a>>,
     /// Material `m` of the map is `materials[m]`.
     pub materials: &'a [Material],
+    /// What lies beyond the texture square for all its maps; glTF's default sampler wraps.
+    ///
+    /// Wrapped maps meet their opposite border there. Any other choice keeps each copy of a map to itself, as it was
+    /// bent by [`crate::surface::deflect_heights`] with the same edges.
+    pub edges: Edges,
     /// How it answers light.
     pub model: LightingModel,
-    /// Whether back faces are drawn too (with the same normals).
+    /// Whether back faces are drawn too, with their normals reversed, as glTF has it.
     pub double_sided: bool,
 }
 
 impl<'a> Object<'a> {
-    /// An object at the origin of the world, without a base colour, lit by the default model, back faces hidden.
+    /// An object at the origin of the world, without a base colour, its maps wrapped, lit by the default model, back faces hidden.
     pub fn new(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Self {
         let (pose, model) = (Pose::IDENTITY, LightingModel::default());
-        Self { mesh, pose, detail, base_color: None, materials, model, double_sided: false }
+        Self { mesh, pose, detail, base_color: None, materials, edges: Edges::Wrap, model, double_sided: false }
     }
 }
 
@@ -105,6 +110,8 @@ pub(super) struct Fragment {
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
     pub(super) tangent: Vec4,
+    /// Seen from behind: the true normal is the negative of whatever the mesh and its map say.
+    pub(super) back_facing: bool,
 }
 
 /// The shading of one object for one frame.

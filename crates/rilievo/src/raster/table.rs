@@ -3,20 +3,22 @@
 use glam::Vec3;
 
 use crate::error::{Error, Result};
-use crate::indexed::QuantizedMap;
+use crate::indexed::{NormalTable, QuantizedMap};
 use crate::light::{Lighting, Shade, ShadeTable};
 use crate::normal::{Normal, Object as ObjectSpace};
 use crate::raster::scene::{Detail, Fragment, Object};
-use crate::raster::texture::{Taps, TextureFilter};
+use crate::raster::texture::{Sampling, Taps};
 
-/// An index map and its lit table (Tarini et al. 2000, § 5).
+/// An index map and its lit tables (Tarini et al. 2000, § 5).
 pub(super) struct Table<'a> {
     map: &'a QuantizedMap<ObjectSpace>,
-    table: ShadeTable,
+    front: ShadeTable,
+    /// For the reversed normals of back faces, if they are drawn.
+    back: Option<ShadeTable>,
 }
 
 impl<'a> Table<'a> {
-    /// Lights the table for an eye at `eye` in object space.
+    /// Lights the tables for an eye at `eye` in object space.
     pub(super) fn new(object: &Object<'a>, lighting: &Lighting<ObjectSpace>, eye: Vec3) -> Result<Self> {
         let Detail::Indexed(map) = object.detail else {
             let remedy =
@@ -25,16 +27,24 @@ impl<'a> Table<'a> {
         };
         // One view direction for the whole object: from its middle, where the error is shared out evenly.
         let view = Normal::new_or(eye - object.mesh.bounding_sphere().0, Normal::Z);
-        let table = ShadeTable::new(map.table(), object.model, object.materials, lighting, view)?;
-        Ok(Self { map, table })
+        let light = |table: &NormalTable<_>| ShadeTable::new(table, object.model, object.materials, lighting, view);
+        let front = light(map.table())?;
+        let back = if object.double_sided {
+            let reversed = map.table().normals().iter().map(|n| Normal::from_unit(-n.vec())).collect();
+            Some(light(&NormalTable::with_materials(reversed, map.table().spans().to_vec())?)?)
+        } else {
+            None
+        };
+        Ok(Self { map, front, back })
     }
 
     /// Looks up each texel, then filters the colours: indices are never averaged.
-    pub(super) fn shade(&self, fragment: &Fragment, filter: TextureFilter) -> Shade {
+    pub(super) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let levels = self.map.indices();
-        Taps::gather(levels, filter, &fragment.footprint).iter().fold(Shade::default(), |sum, tap| {
+        let table = self.back.as_ref().filter(|_| fragment.back_facing).unwrap_or(&self.front);
+        Taps::gather(levels, sampling, &fragment.footprint).iter().fold(Shade::default(), |sum, tap| {
             let index = levels.levels()[tap.level][(tap.x, tap.y)];
-            sum.add_weighted(self.table.entries()[usize::from(index)], tap.weight)
+            sum.add_weighted(table.entries()[usize::from(index)], tap.weight)
         })
     }
 }

@@ -42,7 +42,7 @@ fn camera(mesh: &Mesh, azimuth_deg: f32, elevation_deg: f32) -> Camera {
 
 fn object<'a>(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Object<'a> {
     let model = LightingModel::BlinnPhong;
-    Object { mesh, pose: Pose::IDENTITY, detail, base_color: None, materials, model, double_sided: false }
+    Object { model, ..Object::new(mesh, detail, materials) }
 }
 
 fn render(object: Object<'_>, camera: Camera, method: Method, (width, height): (u32, u32)) -> Picture {
@@ -55,7 +55,7 @@ fn render(object: Object<'_>, camera: Camera, method: Method, (width, height): (
 fn bend(mesh: &Mesh, heights: Grid<f32>, depth: f32, size: (u32, u32), repeat: [f32; 2]) -> Deflected {
     let map = HeightMap::new(heights, depth).unwrap();
     let options = Deflect { size, gutter: 4, repeat };
-    deflect_heights(mesh, &map, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap()
+    deflect_heights(mesh, &map, None, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap()
 }
 
 fn table_of(map: &Deflected, entries: u32, materials: Option<&MaterialMap>) -> QuantizedMap<ObjectSpace> {
@@ -95,7 +95,7 @@ pub(crate) fn vase() -> Picture {
     let mesh = sample::mesh(sample::DEFAULT_SEGMENTS).unwrap();
     let size = maps.height.heights().size();
     let options = Deflect { gutter: 4, ..Deflect::new(size) };
-    let bent = deflect_heights(&mesh, &maps.height, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap();
+    let bent = deflect_heights(&mesh, &maps.height, None, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap();
     let map = table_of(&bent, 256, Some(&maps.materials));
     let color = maps.color.map(|p| LinearRgb::from_srgb(p.rgb()));
     let color = MipChain::build(color, |block| {

@@ -36,6 +36,20 @@ impl Bilinear {
         let bottom = texel(x0, y1) * (1.0 - fx) + texel(x1, y1) * fx;
         top * (1.0 - fy) + bottom * fy
     }
+
+    /// The texel that `point` lies in.
+    pub(super) fn nearest(&self, point: &Point) -> (u32, u32) {
+        let at = point.position * self.ratio;
+        (nearest(at.x, self.size.0), nearest(at.y, self.size.1))
+    }
+}
+
+/// The texel of one copy of the map that `position` lies in.
+fn nearest(position: f64, len: u32) -> u32 {
+    let n = f64::from(len);
+    let inside = position - (position / n).floor() * n;
+    // A position just below a copy rounds up to its far end.
+    (inside as u32).min(len - 1)
 }
 
 /// The two texels whose centres (i + ½) enclose `position`, within one copy of the map, and how far towards the second.
@@ -50,6 +64,13 @@ fn neighbours(position: f64, len: u32, edges: Edges) -> (u32, u32, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nearest_stays_in_its_copy() {
+        for (position, expected) in [(0.0, 0), (0.99, 0), (1.0, 1), (3.5, 3), (4.0, 0), (-0.5, 3), (-1e-300, 3)] {
+            assert_eq!(nearest(position, 4), expected, "{position}");
+        }
+    }
 
     #[test]
     fn neighbours_meet_over_the_edge_of_a_copy() {

@@ -70,7 +70,8 @@ impl Deflect {
 pub struct Deflected {
     /// The normals. Texels of the gutter have the normal of the nearest covered texel, the rest +Z.
     pub normals: NormalMap<Object>,
-    /// Which texels have their centre on a triangle (true), and which are gutter or nothing.
+    /// Which texels have their centre on a triangle (true), and which are gutter or nothing. Where the source is not
+    /// covered there is nothing.
     pub covered: Grid<bool>,
     /// How many texels more than one triangle claims, because texture coordinates overlap. Of these the first triangle
     /// of the mesh has its way.
@@ -82,21 +83,27 @@ pub struct Deflected {
 /// `n' = normalize(n.x T + n.y B + n.z N)` with T and N interpolated and not normalised, `B = ± N × T`: the convention
 /// that makers of tangent-space maps bake against. The map repeats; outside 0 … 1, texture coordinates wrap.
 ///
+/// `covered` says which texels of the map mean something, all without it: where the nearest one does not, the result is
+/// not covered either.
+///
 /// - **Space:** in: tangent, +Y up; out: object.
 /// - **Determinism:** the same bits for any number of threads.
 /// - **Source:** Tarini 2000, § 4.1; frames: Mikkelsen 2008, "Simulation of wrinkled surfaces revisited".
 ///
 /// # Errors
 /// [`Error::Missing`] if the mesh has no texture coordinates; [`Error::Parameter`] or [`Error::Size`] for options out of
-/// range, or triangles that span too many repetitions of the texture; errors of [`Mesh::with_tangents`].
+/// range, or triangles that span too many repetitions of the texture; [`Error::SizeMismatch`] if `covered` is not of the
+/// map's size; errors of [`Mesh::with_tangents`].
 pub fn deflect_normals(
     mesh: &Mesh,
     map: &NormalMap<Tangent>,
+    covered: Option<&Grid<bool>>,
     options: &Deflect,
     progress: &dyn Progress,
 ) -> Result<Deflected> {
     options.check()?;
     raster::check_uvs(mesh, options.size)?;
+    expect_fits(covered, map)?;
     let owned;
     let mesh = if mesh.tangents().is_empty() {
         owned = mesh.clone().with_tangents()?;
@@ -113,14 +120,15 @@ pub fn deflect_normals(
         let mean = sampler.sample(point, |x, y| map[(x, y)].vec().as_dvec3());
         Frame::from_mikk(normal, tangent.extend(sign)).to_object(Normal::new_or(mean.as_vec3(), Normal::Z))
     };
-    raster::rasterise(mesh, options, progress, shade)
+    let in_source = |point: &Point| covered.is_none_or(|c| c[sampler.nearest(point)]);
+    raster::rasterise(mesh, options, progress, in_source, shade)
 }
 
 /// Bends a height map onto a mesh, by the surface gradient.
 ///
 /// `n' = normalize(N − g)`, where g is the gradient of the height along the surface: the tangential vector with
 /// `g · ∂P/∂u = ∂h/∂u` and `g · ∂P/∂v = ∂h/∂v`. Stretched, sheared and mirrored textures thus get their true slopes,
-/// which a tangent-space map cannot know.
+/// which a tangent-space map cannot know. `covered` is as for [`deflect_normals`].
 ///
 /// - **Units:** full white stands for `depth` × W, where W is the length of the map's width on the mesh: the mean of
 ///   `|∂P/∂u| / repeat` over the area of the mesh, in object units. On a flat plane of the map's aspect the result is
@@ -137,6 +145,7 @@ pub fn deflect_normals(
 pub fn deflect_heights(
     mesh: &Mesh,
     map: &HeightMap,
+    covered: Option<&Grid<bool>>,
     filter: Filter,
     edges: Edges,
     options: &Deflect,
@@ -144,6 +153,7 @@ pub fn deflect_heights(
 ) -> Result<Deflected> {
     options.check()?;
     raster::check_uvs(mesh, options.size)?;
+    expect_fits(covered, map.heights())?;
     let metric = SurfaceMetric::new(mesh)?;
     let slopes = slopes(map, filter, edges);
     let sampler = Bilinear::new(options, slopes.size(), edges);
@@ -159,7 +169,12 @@ pub fn deflect_heights(
         let gradient = metric.gradient(point, geometric.vec().as_dvec3(), right * per_u, -up * per_v);
         gradient.map_or(geometric, |g: DVec3| Normal::new_or((geometric.vec().as_dvec3() - g).as_vec3(), geometric))
     };
-    raster::rasterise(mesh, options, progress, shade)
+    let in_source = |point: &Point| covered.is_none_or(|c| c[sampler.nearest(point)]);
+    raster::rasterise(mesh, options, progress, in_source, shade)
+}
+
+fn expect_fits<T>(covered: Option<&Grid<bool>>, map: &Grid<T>) -> Result<()> {
+    covered.map_or(Ok(()), |covered| map.expect_same_size("the coverage of the map", covered))
 }
 
 #[cfg(test)]

@@ -80,11 +80,13 @@ struct Texel {
     claims: u8,
 }
 
-/// Draws the mesh in its texture space, one normal from `shade` for each texel centre on a triangle.
+/// Draws the mesh in its texture space, one normal from `shade` for each texel centre on a triangle where `in_source`
+/// says that the source has something to give.
 pub(super) fn rasterise(
     mesh: &Mesh,
     options: &Deflect,
     progress: &dyn Progress,
+    in_source: impl Fn(&Point) -> bool + Sync + Send,
     shade: impl Fn(&Point) -> Normal<Object> + Sync + Send,
 ) -> Result<Deflected> {
     let (width, height) = options.size;
@@ -96,6 +98,9 @@ pub(super) fn rasterise(
         let first = (band * BAND_ROWS) as u32;
         let rows = texels.len() / width as usize;
         draw_band(mesh, options.size, first..first + rows as u32, |x, y, point| {
+            if !in_source(&point) {
+                return;
+            }
             let texel = &mut texels[(y - first) as usize * width as usize + x as usize];
             if texel.claims == 0 {
                 texel.normal = shade(&point);

@@ -35,11 +35,53 @@ fn all_covered(result: &Deflected) -> bool {
 }
 
 fn normals(mesh: &Mesh, map: &NormalMap<Tangent>, options: &Deflect) -> Deflected {
-    deflect_normals(mesh, map, options, &Silent).unwrap()
+    deflect_normals(mesh, map, None, options, &Silent).unwrap()
 }
 
 fn heights(mesh: &Mesh, map: &HeightMap, options: &Deflect) -> Deflected {
-    deflect_heights(mesh, map, Filter::Plane4, Edges::Wrap, options, &Silent).unwrap()
+    deflect_heights(mesh, map, None, Filter::Plane4, Edges::Wrap, options, &Silent).unwrap()
+}
+
+#[test]
+fn uncovered_sources_stay_uncovered() {
+    let (width, height) = (12, 8);
+    let map = bumpy(width, height, 0.2);
+    let tangent = to_normals(&map, Filter::Plane4, Edges::Wrap);
+    let hole = |x: u32, y: u32| (3..6).contains(&x) && (2..5).contains(&y) || x == 11;
+    let covered = Grid::from_fn(width, height, |x, y| !hole(x, y)).unwrap();
+    let mesh = plane(1.5).unwrap();
+    // Once at the same size, and three times at twice the size: a texel of the source is then 2 × 2 of the result.
+    for (options, scale) in [
+        (Deflect { gutter: 1, ..Deflect::new((width, height)) }, 1),
+        (Deflect { gutter: 1, repeat: [3.0, 1.0], ..Deflect::new((6 * width, 2 * height)) }, 2),
+    ] {
+        let by = |covered| {
+            [
+                deflect_normals(&mesh, &tangent, covered, &options, &Silent).unwrap(),
+                deflect_heights(&mesh, &map, covered, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap(),
+            ]
+        };
+        for (full, holed) in by(None).into_iter().zip(by(Some(&covered))) {
+            assert!(all_covered(&full));
+            for y in 0..options.size.1 {
+                for x in 0..options.size.0 {
+                    let expected = !hole(x / scale % width, y / scale);
+                    assert_eq!(holed.covered[(x, y)], expected, "{x}, {y} at {scale}");
+                    if expected {
+                        assert_eq!(holed.normals[(x, y)], full.normals[(x, y)]);
+                    }
+                }
+            }
+            // The gutter runs into the hole from its rim, one texel deep, and no further.
+            let (left, top) = (3 * scale, 2 * scale);
+            assert_eq!(holed.normals[(left, top + 1)], full.normals[(left - 1, top + 1)]);
+            assert_eq!(holed.normals[(left + 1, top + 1)], Normal::Z);
+        }
+    }
+    let wrong = Grid::filled(height, width, true).unwrap();
+    let options = Deflect::new((width, height));
+    assert!(deflect_normals(&mesh, &tangent, Some(&wrong), &options, &Silent).is_err());
+    assert!(deflect_heights(&mesh, &map, Some(&wrong), Filter::Plane4, Edges::Wrap, &options, &Silent).is_err());
 }
 
 /// A normal from f64 numbers.
@@ -69,7 +111,7 @@ fn plane_gets_the_flat_map() {
                 let tilt = flat.texels().iter().map(|n| n.angle_to(Normal::Z)).fold(0.0, f64::max);
                 assert!(tilt > 0.5, "the map must be bumpy for this to mean anything: {tilt}");
                 let by_normals = normals(&mesh, &flat, &options);
-                let by_heights = deflect_heights(&mesh, &map, filter, edges, &options, &Silent).unwrap();
+                let by_heights = deflect_heights(&mesh, &map, None, filter, edges, &options, &Silent).unwrap();
                 for result in [by_normals, by_heights] {
                     assert!(all_covered(&result) && result.overlaps == 0);
                     let angle = worst(&result, |x, y| flat[(x, y)].relabel());
@@ -253,10 +295,10 @@ fn coordinates_outside_the_square_wrap() {
     let twice = normals(&with_uvs(&plain, |uv| uv * 2.0), &flat, &options);
     assert_eq!(twice.overlaps, 256);
     let often = with_uvs(&plain, |uv| uv * 40.0);
-    assert!(matches!(deflect_normals(&often, &flat, &options, &Silent), Err(Error::Parameter { .. })));
+    assert!(matches!(deflect_normals(&often, &flat, None, &options, &Silent), Err(Error::Parameter { .. })));
     // Nine tiles are few, but not at a size where their corners no longer fit the fixed point of the rasteriser.
     let long = with_uvs(&plane(1.0).unwrap(), |uv| Vec2::new(uv.x * 20.0, uv.y));
-    assert!(deflect_normals(&long, &flat, &Deflect::new((65_536, 1)), &Silent).is_err());
+    assert!(deflect_normals(&long, &flat, None, &Deflect::new((65_536, 1)), &Silent).is_err());
 }
 
 #[test]
@@ -324,7 +366,7 @@ fn texture_without_area_gives_no_nan() {
     let point = with_uvs(&plane(1.0).unwrap(), |_| Vec2::splat(0.3));
     let result = normals(&point, &flat, &options);
     assert!(result.covered.texels().iter().all(|&c| !c) && result.normals.texels().iter().all(|n| *n == Normal::Z));
-    let refused = deflect_heights(&point, &map, Filter::Plane4, Edges::Wrap, &options, &Silent);
+    let refused = deflect_heights(&point, &map, None, Filter::Plane4, Edges::Wrap, &options, &Silent);
     assert!(matches!(refused, Err(Error::Parameter { .. })));
     let bare = Mesh::new(MeshParts {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
@@ -332,7 +374,7 @@ fn texture_without_area_gives_no_nan() {
         ..MeshParts::default()
     })
     .unwrap();
-    assert!(matches!(deflect_normals(&bare, &flat, &options, &Silent), Err(Error::Missing { .. })));
+    assert!(matches!(deflect_normals(&bare, &flat, None, &options, &Silent), Err(Error::Missing { .. })));
 }
 
 #[test]
@@ -347,7 +389,7 @@ fn options_out_of_range_are_refused() {
         Deflect { repeat: [1.0, f32::NAN], ..good },
         Deflect { repeat: [f32::INFINITY, 1.0], ..good },
     ] {
-        assert!(deflect_normals(&mesh, &flat, &bad, &Silent).is_err(), "{bad:?}");
+        assert!(deflect_normals(&mesh, &flat, None, &bad, &Silent).is_err(), "{bad:?}");
     }
 }
 
@@ -382,8 +424,8 @@ proptest! {
         let map = bumpy(5, 3, 0.5);
         let options = Deflect { gutter: 3, ..Deflect::new((9, 7)) };
         let flat = to_normals(&map, Filter::Plane4, Edges::Wrap);
-        let by_heights = deflect_heights(&mesh, &map, Filter::Plane4, Edges::Wrap, &options, &Silent);
-        for result in deflect_normals(&mesh, &flat, &options, &Silent).into_iter().chain(by_heights) {
+        let by_heights = deflect_heights(&mesh, &map, None, Filter::Plane4, Edges::Wrap, &options, &Silent);
+        for result in deflect_normals(&mesh, &flat, None, &options, &Silent).into_iter().chain(by_heights) {
             for n in result.normals.texels() {
                 prop_assert!((n.vec().length() - 1.0).abs() < 1e-6);
             }
