@@ -12,8 +12,7 @@ use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, Target, TextureF
 use rilievo::sample::vase as sample;
 use rilievo::surface::{Camera, Deflect, Deflected, Mesh, MeshParts, deflect_heights, shapes};
 use rilievo::{
-    Edges, Grid, LinearRgb, MaterialMap, MipChain, Normal, Object as ObjectSpace, Pose, QuantizedMap, Rgba8, Space,
-    Tangent,
+    Edges, Grid, LinearRgb, MaterialMap, MipChain, Normal, Object as ObjectSpace, QuantizedMap, Rgba8, Space, Tangent,
 };
 
 use crate::relief;
