@@ -25,11 +25,11 @@ impl Source {
             return Self::read("standard input", io::stdin().lock(), limits);
         }
         let name = path.display().to_string();
-        let file = File::open(path).map_err(|e| Error::io(&name, e))?;
-        let about = file.metadata().map_err(|e| Error::io(&name, e))?;
+        let file = File::open(path).map_err(|e| Error::read(&name, e))?;
+        let about = file.metadata().map_err(|e| Error::read(&name, e))?;
         if about.is_dir() {
             let e = io::Error::new(io::ErrorKind::IsADirectory, "is a directory; name a file in it");
-            return Err(Error::io(&name, e));
+            return Err(Error::read(&name, e));
         }
         check_length(&name, about.len(), limits)?;
         Self::read(&name, file, limits)
@@ -53,7 +53,7 @@ impl Source {
     fn read(name: &str, from: impl Read, limits: &Limits) -> Result<Self> {
         let mut bytes = Vec::new();
         let most = limits.max_file_bytes.saturating_add(1);
-        from.take(most).read_to_end(&mut bytes).map_err(|e| Error::io(name, e))?;
+        from.take(most).read_to_end(&mut bytes).map_err(|e| Error::read(name, e))?;
         check_length(name, bytes.len() as u64, limits)?;
         Ok(Self { name: name.to_owned(), bytes })
     }
@@ -75,7 +75,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let limits = Limits { max_file_bytes: 4, ..Limits::default() };
         let message = |p: &Path| Source::open(p, &limits).unwrap_err().to_string();
-        assert!(message(folder.path()).contains("directory"));
+        let Err(Error::Io { source, .. }) = Source::open(folder.path(), &limits) else { panic!("a directory opens") };
+        assert!(source.kind() == io::ErrorKind::IsADirectory && source.to_string().contains("name a file"));
         let file = folder.path().join("a");
         assert!(matches!(Source::open(&file, &limits), Err(Error::Io { .. })));
         std::fs::write(&file, b"12345").unwrap();

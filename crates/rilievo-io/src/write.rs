@@ -1,5 +1,6 @@
 //! Files out: whole, or not at all.
 
+use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -16,9 +17,9 @@ use crate::error::{Error, Result};
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<()> {
     if path == Path::new("-") {
         let mut out = io::stdout().lock();
-        return out.write_all(bytes).and_then(|()| out.flush()).map_err(|e| Error::io("standard output", e));
+        return out.write_all(bytes).and_then(|()| out.flush()).map_err(|e| Error::write("standard output", e));
     }
-    replace(path, bytes).map_err(|e| Error::io(&path.display().to_string(), e))
+    replace(path, bytes).map_err(|e| Error::write(&path.display().to_string(), e))
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -32,26 +33,28 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
+    let mut options = File::options();
+    options.write(true).create_new(true);
+    set_permissions(&mut options, &target);
+    // Opened and filled by the standard library's own calls: the errors of tempfile's name the temporary file, of which
+    // the user knows nothing.
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".rilievo-").suffix(".part");
-    set_permissions(&mut builder, &target);
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
+    let mut file = builder.prefix(".rilievo-").suffix(".part").make_in(folder, |part| options.open(part))?;
+    file.as_file_mut().write_all(bytes)?;
     file.persist(&target).map_err(|e| e.error)?;
     Ok(())
 }
 
-/// Temporary files are private by default; the result should be as readable as any other new file, or as the file it
-/// replaces.
+/// The result should be as readable as any other new file, or as the file it replaces.
 #[cfg(unix)]
-fn set_permissions(builder: &mut tempfile::Builder<'_, '_>, target: &Path) {
-    use std::os::unix::fs::PermissionsExt;
+fn set_permissions(options: &mut OpenOptions, target: &Path) {
+    use std::os::unix::fs::{OpenOptionsExt, PermissionsExt};
     let mode = target.metadata().map_or(0o666, |about| about.permissions().mode() & 0o777);
-    builder.permissions(std::fs::Permissions::from_mode(mode));
+    options.mode(mode);
 }
 
 #[cfg(not(unix))]
-fn set_permissions(_: &mut tempfile::Builder<'_, '_>, _: &Path) {}
+fn set_permissions(_: &mut OpenOptions, _: &Path) {}
 
 #[cfg(test)]
 mod tests {
@@ -70,7 +73,10 @@ mod tests {
     #[test]
     fn write_to_a_missing_folder_or_a_directory_fails_cleanly() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(matches!(write_atomic(&folder.path().join("no/map.png"), b"x"), Err(Error::Io { .. })));
+        let missing = folder.path().join("no/map.png");
+        let Err(Error::Io { name, source, .. }) = write_atomic(&missing, b"x") else { panic!("it is written") };
+        assert_eq!((name, source.kind()), (missing.display().to_string(), io::ErrorKind::NotFound));
+        assert!(!source.to_string().contains(".part"), "{source}");
         assert!(matches!(write_atomic(folder.path(), b"x"), Err(Error::Io { .. })));
         assert!(folder.path().is_dir());
     }

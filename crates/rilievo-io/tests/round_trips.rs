@@ -111,7 +111,12 @@ fn floats_without_direction_are_counted_and_placed() {
 
     let message = decode_height(&npy(2, 2, 1, &[0.0, 1.0, f32::INFINITY, f32::NAN]), &limits).unwrap_err().to_string();
     assert!(message.contains("2 heights") && message.contains("(0, 1)"), "{message}");
-    assert_eq!(decode_height(&npy(2, 1, 1, &[-3.5, 7.0]), &limits).unwrap().heights.texels(), [-3.5, 7.0]);
+    let metres = decode_height(&npy(2, 1, 1, &[-3.5, 7.0]), &limits).unwrap();
+    assert_eq!(metres.heights.texels(), [-3.5, 7.0]);
+    assert!(metres.warnings.len() == 1 && metres.warnings[0].contains("from -3.5 to 7,"), "{:?}", metres.warnings);
+    assert!(decode_height(&npy(2, 1, 1, &[-1.0, 2.0]), &limits).unwrap().warnings.is_empty());
+    // What is not covered has no height.
+    assert!(decode_height(&npy(2, 1, 2, &[0.5, 1.0, 9.0, 0.0]), &limits).unwrap().warnings.is_empty());
 }
 
 #[test]

@@ -109,6 +109,6 @@ pub fn encode_normals_exr<S: Space>(
     let mut bytes = Vec::new();
     let image = Image::from_layer(layer);
     let written = image.write().non_parallel().to_buffered(Cursor::new(&mut bytes));
-    written.map_err(|e| Error::io(NAME, std::io::Error::other(e.to_string())))?;
+    written.map_err(|e| Error::write(NAME, std::io::Error::other(e.to_string())))?;
     Ok(bytes)
 }

@@ -47,7 +47,20 @@ pub fn decode_height(source: &Source, limits: &Limits) -> Result<HeightImage> {
     if raster.depth() == Depth::U8 && matches!(super::sniff(source.bytes()), Some(super::Format::Jpeg)) {
         warnings.push("JPEG is lossy: its block pattern will show in the normals; use a PNG of 16 bits".to_owned());
     }
+    warnings.extend(far_outside(&heights, covered.as_ref()));
     Ok(HeightImage { heights: raster.grid(heights), covered, depth: raster.depth(), warnings })
+}
+
+/// A warning if heights run far outside 0 … 1, as they do in metres. Integers never do.
+fn far_outside(heights: &[f32], covered: Option<&Grid<bool>>) -> Option<String> {
+    let inside = heights.iter().enumerate().filter(|(i, _)| covered.is_none_or(|c| c.texels()[*i]));
+    let (low, high) = inside.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), (_, &h)| (low.min(h), high.max(h)));
+    (low < -1.0 || high > 2.0).then(|| {
+        format!(
+            "heights run from {low} to {high}, not from 0 to 1: --depth is the height of 1.0 as a fraction of the width, \
+             so scale them, or give a depth that fits (for metres: 1 / the width in metres)"
+        )
+    })
 }
 
 fn finite(name: &str, raster: &Raster, samples: &[f32], covered: Option<&Grid<bool>>) -> Result<Vec<f32>> {

@@ -7,6 +7,7 @@
 //! compression packs more than a fixed ratio (1032 : 1 for PNG). Decoding takes at most the samples as stored (up to
 //! 16 bytes a texel for four floats), once more while they are unpacked, plus the result (12 bytes a texel for normals).
 
+mod depth;
 mod exr;
 mod height;
 mod jpeg;
@@ -20,6 +21,7 @@ mod raster;
 mod tiff;
 
 pub use self::exr::encode_normals_exr;
+pub use depth::sample_depth;
 pub use height::{HeightImage, decode_height};
 pub use materials::decode_materials;
 pub use normals::{NormalImage, decode_normals};

@@ -25,7 +25,7 @@ pub(crate) fn decode(source: &Source, limits: &Limits) -> Result<Raster> {
         }
     };
     let count = limits.check_size(name, width, height)? * channels;
-    let kind = value(header, "descr").and_then(|v| v.strip_prefix(['\'', '"'])?.get(..3)).unwrap_or("");
+    let kind = value(header, "descr").map_or("", dtype);
     let samples = match kind {
         "<f2" => floats(data, count, |b| half::f16::from_le_bytes(b).to_f32()),
         ">f2" => floats(data, count, |b| half::f16::from_be_bytes(b).to_f32()),
@@ -34,7 +34,9 @@ pub(crate) fn decode(source: &Source, limits: &Limits) -> Result<Raster> {
         "<f8" => floats(data, count, |b| f64::from_le_bytes(b) as f32),
         ">f8" => floats(data, count, |b| f64::from_be_bytes(b) as f32),
         _ => {
-            let what = format!("an array of type {:?}", value(header, "descr").unwrap_or("unknown").trim());
+            let shown: String = kind.chars().take(16).collect();
+            let what =
+                if kind.is_empty() { "a structured array".into() } else { format!("an array of type {shown:?}") };
             return Err(Error::unsupported(name, what, "save a.astype(numpy.float32) instead"));
         }
     };
@@ -61,6 +63,12 @@ fn value<'a>(header: &'a str, key: &str) -> Option<&'a str> {
     let quoted = [format!("'{key}'"), format!("\"{key}\"")];
     let after = quoted.iter().find_map(|q| header.split_once(q.as_str()))?.1;
     Some(after.trim_start().strip_prefix(':')?.trim_start())
+}
+
+/// The type in quotes that `text` begins with; empty if it is not one, as for structured arrays.
+fn dtype(text: &str) -> &str {
+    let quoted = |q: char| text.strip_prefix(q)?.split_once(q);
+    quoted('\'').or_else(|| quoted('"')).map_or("", |(kind, _)| kind)
 }
 
 fn parse_shape(text: &str) -> Option<Vec<u64>> {
@@ -97,7 +105,13 @@ mod tests {
         assert_eq!(*decoded("<f2", &[0, 0x3c, 0, 0xb8]).unwrap().samples(), expected);
         assert_eq!(*decoded(">f8", &f8).unwrap().samples(), expected);
         assert!(matches!(decoded(">f8", &f8[..15]), Err(Error::Format { .. })));
-        assert!(matches!(decoded("<i4", &f8), Err(Error::Unsupported { .. })));
+        let refused = |header: &str| match decode(&npy(header, &f8), &limits) {
+            Err(Error::Unsupported { what, .. }) => what,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(refused(&header("|u1")), "an array of type \"|u1\"");
+        assert_eq!(refused(&header(&"<f4".repeat(99))), "an array of type \"<f4<f4<f4<f4<f4<\"");
+        assert_eq!(refused(&header("<f4").replace("'<f4'", "[('a', '<f4')]")), "a structured array");
         let fortran = header("<f4").replace("False", "True");
         assert!(matches!(decode(&npy(&fortran, &f8), &limits), Err(Error::Unsupported { .. })));
         let huge = header("<f4").replace("(1, 2)", "(99999999999999999999, 2)");

@@ -138,7 +138,7 @@ pub(crate) fn encode(
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(color);
     encoder.set_depth(depth);
-    run(encoder).map_err(|e| Error::io(NAME, std::io::Error::other(e)))?;
+    run(encoder).map_err(|e| Error::write(NAME, std::io::Error::other(e)))?;
     Ok(bytes)
 }
 

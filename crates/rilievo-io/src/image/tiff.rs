@@ -6,7 +6,7 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult};
 use tiff::tags::Tag;
 
-use super::raster::{Raster, Samples};
+use super::raster::{Depth, Raster, Samples};
 use crate::error::{Error, Result};
 use crate::limits::{Limits, check_plausible};
 use crate::source::Source;
@@ -55,6 +55,24 @@ pub(crate) fn decode(source: &Source, limits: &Limits) -> Result<Raster> {
         _ => return unsupported(format!("a TIFF of {bits}-bit integers")),
     };
     Raster::new(name, size, channels, samples)
+}
+
+/// How the samples of the first picture are stored, from its header.
+pub(crate) fn sample_depth(source: &Source, limits: &Limits) -> Result<Depth> {
+    let name = source.name();
+    let failed = |e: tiff::TiffError| Error::format(name, "TIFF data", e.to_string());
+    let mut decoder = Decoder::new(Cursor::new(source.bytes())).map_err(failed)?;
+    let (width, height) = decoder.dimensions().map_err(failed)?;
+    limits.check_size(name, width.into(), height.into())?;
+    let format = decoder.find_tag_unsigned_vec::<u16>(Tag::SampleFormat).map_err(failed)?;
+    // 3 is IEEE floating point (TIFF 6.0, section 19).
+    let floats = format.is_some_and(|f| f.first() == Some(&3));
+    let bits = decoder.colortype().map_err(failed)?.bit_depth();
+    Ok(match bits {
+        _ if floats => Depth::F32,
+        0..=8 => Depth::U8,
+        _ => Depth::U16,
+    })
 }
 
 const REMEDY: &str = "save it as gray or RGB of 8 or 16 bits, or of 32-bit floats, interleaved";

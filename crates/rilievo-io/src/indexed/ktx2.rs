@@ -125,7 +125,7 @@ pub fn encode_ktx2<S: Space>(map: &QuantizedMap<S>, convention: Convention) -> R
             1 => level.texels().iter().map(|&i| i as u8).collect(),
             _ => level.texels().iter().flat_map(|i| i.to_le_bytes()).collect(),
         };
-        let packed = compress(&raw).map_err(|e| Error::io(NAME, e))?;
+        let packed = compress(&raw).map_err(|e| Error::write(NAME, e))?;
         index.push(LevelIndex {
             byte_offset: data_at as u64,
             byte_length: packed.len() as u64,

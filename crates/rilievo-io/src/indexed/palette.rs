@@ -133,6 +133,7 @@ impl<'a> PalettePng<'a> {
         if hidden > 0 {
             warnings.push(format!("{hidden} transparent palette entries are taken as +Z"));
         }
+        warnings.extend(self.off_length());
         let normal = |(i, &c): (usize, &[u8; 3])| match self.alpha.get(i) {
             Some(0) => Normal::Z,
             _ => convention.apply(decode_u8(c)),
@@ -140,6 +141,21 @@ impl<'a> PalettePng<'a> {
         let normals: Vec<_> = self.colors().iter().enumerate().map(normal).collect();
         let spans = vec![MaterialSpan { material: 0, entries: 0..normals.len() as u32 }];
         Ok(PaletteTable { table: AnyTable::new(self.name, space, &normals, spans)?, convention, warnings })
+    }
+
+    /// A warning if most entries that are seen are more than 10 % off unit length, the threshold of
+    /// [`crate::decode_normals`]. A few are no sign: quantisers average colours, which shortens vectors.
+    fn off_length(&self) -> Option<String> {
+        let seen = self.colors().iter().enumerate().filter(|(i, _)| self.alpha.get(*i) != Some(&0));
+        let squared = |c: &[u8; 3]| c.map(|v| (f32::from(v) / 127.5 - 1.0).powi(2)).iter().sum::<f32>();
+        let (off, all) =
+            seen.fold((0, 0), |(off, all), (_, c)| (off + usize::from(!(0.81..=1.21).contains(&squared(c))), all + 1));
+        (2 * off > all).then(|| {
+            format!(
+                "{off} of {all} palette entries are more than 10 % off unit length; they were renormalised: \
+                 is this a normal map?"
+            )
+        })
     }
 
     /// The same file with other colours: only the palette and its checksum differ.
@@ -179,4 +195,34 @@ fn replace(name: &str, bytes: &mut [u8], range: Range<usize>, colors: &[[u8; 3]]
 fn split_record(chunk: &[u8]) -> Result<(u32, Record), String> {
     let (&checksum, record) = chunk.split_first_chunk::<4>().ok_or("it is cut short")?;
     Ok((u32::from_be_bytes(checksum), Record::from_bytes(record)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn warnings(colors: &[[u8; 3]], alpha: &[u8]) -> Vec<String> {
+        let mut bytes = crate::chunks::SIGNATURE.to_vec();
+        let header: &[u8] = &[0, 0, 0, 1, 0, 0, 0, 1, 8, 3, 0, 0, 0];
+        for (kind, data) in [(*b"IHDR", header), (*b"PLTE", colors.as_flattened()), (*b"tRNS", alpha), (*b"IEND", &[])]
+        {
+            bytes.extend((data.len() as u32).to_be_bytes());
+            bytes.extend(kind);
+            bytes.extend(data);
+            bytes.extend(checksum(kind, data).to_be_bytes());
+        }
+        PalettePng::parse_bytes("a", &bytes).unwrap().table(&ImportAs::default()).unwrap().warnings
+    }
+
+    #[test]
+    fn a_palette_of_colours_is_questioned() {
+        const UP: [u8; 3] = [128, 128, 255];
+        const GRAY: [u8; 3] = [128; 3];
+        assert_eq!(warnings(&[UP, GRAY], &[]), Vec::<String>::new());
+        let found = warnings(&[UP, GRAY, [255; 3]], &[]);
+        assert!(found.len() == 1 && found[0].starts_with("2 of 3") && found[0].contains("normal map?"), "{found:?}");
+        // What is not seen says nothing.
+        let found = warnings(&[GRAY, UP, GRAY], &[0]);
+        assert!(found.len() == 1 && found[0].contains("transparent"), "{found:?}");
+    }
 }

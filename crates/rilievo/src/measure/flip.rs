@@ -33,8 +33,8 @@ const QF: f32 = 0.5;
 
 /// The ꟻLIP error of each pixel, 0 (none) … 1.
 ///
-/// `pixels_per_degree` says how large a pixel looks; see [`DEFAULT_PIXELS_PER_DEGREE`]. Fully transparent pixels are
-/// black, otherwise alpha is ignored, as in [`super::picture_stats`]. Borders are clamped.
+/// `pixels_per_degree` says how large a pixel looks; see [`DEFAULT_PIXELS_PER_DEGREE`]. Pixels are compared as they
+/// are seen over black, as in [`super::picture_stats`]. Borders are clamped.
 ///
 /// - **Accuracy:** each pixel within 10⁻⁴ and the mean within 10⁻⁵ of the authors' own program
 ///   (`dev/testkit/tests/flip_oracle.rs`).

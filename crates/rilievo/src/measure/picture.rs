@@ -27,17 +27,19 @@ pub struct PictureStats {
     pub rpmse: [f64; 3],
 }
 
-/// The colour that measures compare: as stored, and black where the pixel is fully transparent.
+/// The colour that measures compare: what is seen over black, `code · alpha / 255` to nearest.
 ///
 /// What a transparent pixel stores nobody sees, so it must not count; that one picture covers a pixel and the other
-/// does not must. No background is put behind half-transparent pixels: any choice of one would change the figures.
+/// does not must. Codes are blended as they are, as browsers and viewers do. Opaque pixels stay what they are.
 pub(super) fn compared_rgb(pixel: Rgba8) -> [u8; 3] {
-    if pixel.a == 0 { [0; 3] } else { pixel.rgb() }
+    // Halves do not occur: 255 is odd.
+    pixel.rgb().map(|c| ((u32::from(c) * u32::from(pixel.a) + 127) / 255) as u8)
 }
 
 /// Compares two pictures pixel by pixel. Sums are exact integers.
 ///
-/// Pixels that are transparent in both pictures are equal; one that is transparent in one of them counts as black.
+/// Pixels count as they are seen over black: alpha scales the codes. So pixels that are transparent in both pictures are
+/// equal, and opaque pictures are compared as stored.
 ///
 /// # Errors
 /// [`crate::Error::SizeMismatch`] if the sizes differ.
@@ -152,6 +154,15 @@ mod tests {
         let hidden = picture(1, &[[9, 9, 9, 0]]);
         assert_eq!(picture_stats(&hidden, &picture(1, &[[200, 1, 2, 0]])).unwrap().max_abs, 0);
         assert_eq!(picture_stats(&hidden, &picture(1, &[[9, 9, 9, 255]])).unwrap().max_abs, 9);
+    }
+
+    #[test]
+    fn partial_alpha_counts_as_seen_over_black() {
+        let opaque = picture(1, &[[200, 100, 51, 255]]);
+        let stats = |a| picture_stats(&opaque, &picture(1, &[[200, 100, 51, a]])).unwrap();
+        assert_eq!((stats(255).max_abs, stats(1).max_abs, stats(0).max_abs), (0, 199, 200));
+        assert_eq!(compared_rgb(Rgba8::new(200, 100, 51, 128)), [100, 50, 26]);
+        assert!((0..=255).all(|c| compared_rgb(Rgba8::new(c, c, c, 255)) == [c; 3]));
     }
 
     #[test]

@@ -77,7 +77,7 @@ fn read_uri(uri: &str, k: usize, folder: Option<&Path>, left: u64, assembly: &As
     match Source::open(&folder.join(path), &limits) {
         Ok(source) => Ok(source.bytes().to_vec()),
         // Which file asks for it, too.
-        Err(Error::Io { source, .. }) => Err(Error::io(&format!("{}: buffer {k}, {shown:?}", assembly.name), source)),
+        Err(Error::Io { source, .. }) => Err(Error::read(&format!("{}: buffer {k}, {shown:?}", assembly.name), source)),
         Err(other) => Err(other),
     }
 }
