@@ -9,7 +9,7 @@ use rilievo::{Grid, Object};
 use rilievo_io::{self as io, Limits, Source};
 
 use crate::args::{ConventionArg, Given, number};
-use crate::exit::{Outcome, usage};
+use crate::exit::{Outcome, usage, warn};
 use crate::inputs;
 use crate::report::Report;
 
@@ -125,6 +125,11 @@ fn compare_pictures(args: &Args, a: &Source, b: &Source) -> Result<(Report, bool
         return Err(usage("these are pictures, but --max-rms and --max-deg are for normal maps; see --as"));
     }
     let read = |source: &Source| io::decode_picture(source, &Limits::default());
+    for source in [a, b] {
+        if io::sample_depth(source, &Limits::default())? != io::Depth::U8 {
+            warn(source.name(), "has more than 8 bits; pictures are compared at 8");
+        }
+    }
     let (a, b) = (read(a)?, read(b)?);
     let stats: PictureStats = picture_stats(&a, &b)?;
     let flip = flip_mean(&a, &b, args.pixels_per_degree)?;
