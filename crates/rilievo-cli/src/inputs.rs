@@ -4,8 +4,9 @@ use std::path::Path;
 
 use anyhow::Result;
 use rilievo::color::Picture;
-use rilievo::{Convention, LinearRgb, MaterialMap, MipChain, Rgba8, Space};
-use rilievo_io::{AnyIndexed, HeightImage, ImportAs, IndexedFile, Limits, NormalImage, Source};
+use rilievo::height::HeightMap;
+use rilievo::{Convention, Grid, LinearRgb, MaterialMap, MipChain, Rgba8, Space};
+use rilievo_io::{AnyIndexed, ImportAs, IndexedFile, Limits, NormalImage, Source};
 
 use crate::exit;
 
@@ -14,12 +15,12 @@ pub(crate) fn open(path: &Path) -> Result<Source> {
     Ok(Source::open(path, &Limits::default())?)
 }
 
-/// Reads a height map.
-pub(crate) fn height(path: &Path) -> Result<HeightImage> {
+/// Reads a height map of the given depth, and where it is covered (`None` if everywhere).
+pub(crate) fn height_map(path: &Path, depth: f32) -> Result<(HeightMap, Option<Grid<bool>>)> {
     let source = open(path)?;
     let image = rilievo_io::decode_height(&source, &Limits::default())?;
     tell(&source, &image.warnings);
-    Ok(image)
+    Ok((HeightMap::new(image.heights, depth)?, image.covered))
 }
 
 /// Reads a normal map.

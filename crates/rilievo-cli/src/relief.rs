@@ -147,7 +147,10 @@ enum Source {
         normals: NormalMap<Object>,
         covered: Option<Grid<bool>>,
     },
-    Tangent(NormalMap<Tangent>),
+    Tangent {
+        normals: NormalMap<Tangent>,
+        covered: Option<Grid<bool>>,
+    },
     Indexed(AnyIndexed),
 }
 
@@ -223,10 +226,9 @@ impl ReliefArgs {
         samples: Option<&vase::VaseMaps>,
         progress: &Bars,
     ) -> Result<(Mesh, Source)> {
-        let aspect = |(w, h): (u32, u32)| w as f32 / h as f32;
         if let Some(path) = &self.height {
-            let (map, covered) = crate::commands::normal::read_height(&self.heights, path)?;
-            let mesh = self.surface.load(aspect(map.heights().size()))?;
+            let (map, covered) = inputs::height_map(path, self.heights.depth)?;
+            let mesh = self.surface.load(map.heights().size())?;
             let options = self.onto.options(&self.surface, map.heights().size())?;
             let (filter, edges) = (self.heights.filter(), self.heights.edges());
             let bent_map = deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, progress)?;
@@ -235,14 +237,14 @@ impl ReliefArgs {
         if let Some(path) = &self.normals {
             if SpaceKind::from(self.space) == SpaceKind::Object {
                 let image = inputs::normals::<Object>(path, self.convention.into())?;
-                let mesh = self.surface.load(aspect(image.normals.size()))?;
+                let mesh = self.surface.load(image.normals.size())?;
                 return Ok((mesh, Source::Object { normals: image.normals, covered: image.covered }));
             }
             let image = inputs::normals::<Tangent>(path, self.convention.into())?;
-            let mesh = self.surface.load(aspect(image.normals.size()))?.with_tangents();
+            let mesh = self.surface.load(image.normals.size())?.with_tangents();
             let mesh = mesh.with_context(|| self.surface.stem())?;
             if method == Method::Exact {
-                return Ok((mesh, Source::Tangent(image.normals)));
+                return Ok((mesh, Source::Tangent { normals: image.normals, covered: image.covered }));
             }
             let options = self.onto.options(&self.surface, image.normals.size())?;
             let deflected = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress)?;
@@ -252,10 +254,10 @@ impl ReliefArgs {
             let source = inputs::open(path)?;
             let import = ImportAs { space: None, convention: None };
             let map = inputs::indexed(&source, &import)?.map;
-            return Ok((self.surface.load(aspect(map.size()))?, Source::Indexed(map)));
+            return Ok((self.surface.load(map.size())?, Source::Indexed(map)));
         }
         if let Some(samples) = samples {
-            let mesh = self.surface.load(1.0)?;
+            let mesh = self.surface.load((1, 1))?;
             let options = self.onto.options(&self.surface, samples.height.heights().size())?;
             let depth = if given.has("depth") { self.heights.depth } else { samples.height.depth() };
             let map = HeightMap::new(samples.height.heights().clone(), depth)?;
@@ -263,7 +265,7 @@ impl ReliefArgs {
             let deflected = deflect_heights(&mesh, &map, None, filter, edges, &options, progress)?;
             return Ok((mesh, bent(deflected)));
         }
-        Ok((self.surface.load(1.0)?, Source::Nothing))
+        Ok((self.surface.load((1, 1))?, Source::Nothing))
     }
 
     fn finish(
@@ -294,9 +296,12 @@ impl ReliefArgs {
                 })?;
                 Ok((OwnedDetail::Indexed(Box::new(map.map_normals(|n| frame.to_object(n)))), None))
             }
-            Source::Tangent(normals) => {
+            Source::Tangent { normals, covered } => {
                 let materials = fitted(materials, normals.size(), "normal map")?;
-                Ok((OwnedDetail::Tangent { levels: normal_levels(normals, materials, None)?, repeat }, None))
+                Ok((
+                    OwnedDetail::Tangent { levels: normal_levels(normals, materials, covered.as_ref())?, repeat },
+                    None,
+                ))
             }
             Source::Object { normals, covered } if method == Method::Table => {
                 let materials = fitted(materials, normals.size(), "object-space map")?;

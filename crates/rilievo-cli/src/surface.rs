@@ -55,10 +55,10 @@ impl FromStr for SurfaceArg {
 }
 
 impl SurfaceArg {
-    /// The mesh; a plane has the shape of its map, given as width over height.
-    pub(crate) fn load(&self, map_aspect: f32) -> Result<Mesh> {
+    /// The mesh; a plane has the shape of its map.
+    pub(crate) fn load(&self, (map_width, map_height): (u32, u32)) -> Result<Mesh> {
         Ok(match self {
-            Self::Plane => shapes::plane(map_aspect)?,
+            Self::Plane => shapes::plane(map_width as f32 / map_height as f32)?,
             Self::Cube => shapes::cube(shapes::CubeUvs::Atlas)?,
             Self::Sphere { segments, rings } => shapes::sphere(*segments, *rings)?,
             Self::Torus { segments, sides } => shapes::torus(*segments, *sides, 1.0, 0.42)?,

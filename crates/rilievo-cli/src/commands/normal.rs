@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::ValueEnum;
-use rilievo::height::{self, HeightMap};
+use rilievo::height;
 use rilievo::normal::{DitherU8, NormalMap, encode_map_u8};
-use rilievo::surface::{Deflect, deflect_heights, deflect_normals};
+use rilievo::surface::{deflect_heights, deflect_normals};
 use rilievo::{Grid, Object, Space, Tangent};
 use rilievo_io as io;
 
@@ -109,49 +109,29 @@ fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
         let deflected = if args.from == InputKind::Normal {
             let image = inputs::normals::<Tangent>(input, args.convention.into())?;
             let options = args.deflect.options(onto, image.normals.size())?;
-            let mesh = onto.load(aspect(&image.normals))?;
+            let mesh = onto.load(image.normals.size())?;
             deflect_normals(&mesh.with_tangents()?, &image.normals, image.covered.as_ref(), &options, &progress)?
         } else {
-            let (map, covered) = read_height(&args.height, input)?;
+            let (map, covered) = inputs::height_map(input, args.height.depth)?;
             let options = args.deflect.options(onto, map.heights().size())?;
-            let mesh = onto.load(aspect(map.heights()))?;
-            deflect_height_map(&mesh, &map, covered.as_ref(), &args.height, &options, &progress)?
+            let mesh = onto.load(map.heights().size())?;
+            {
+                let (filter, edges) = (args.height.filter(), args.height.edges());
+                deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, &progress)?
+            }
         };
         crate::relief::remark_overlaps(&deflected);
         write::<Object>(args, &deflected.normals, Some(&deflected.covered), output)?;
     } else {
-        let image = inputs::height(input)?;
-        let map = HeightMap::new(image.heights, args.height.depth)?;
+        let (map, covered) = inputs::height_map(input, args.height.depth)?;
         let normals = height::to_normals(&map, args.height.filter(), args.height.edges());
-        write::<Tangent>(args, &normals, image.covered.as_ref(), output)?;
+        write::<Tangent>(args, &normals, covered.as_ref(), output)?;
     }
     Ok(Outcome::Done)
 }
 
 fn is_exr(output: &Path) -> bool {
     output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
-}
-
-/// Reads a height map with its scale, and where it is covered (`None` if everywhere).
-pub(crate) fn read_height(args: &HeightArgs, input: &Path) -> Result<(HeightMap, Option<Grid<bool>>)> {
-    let image = inputs::height(input)?;
-    Ok((HeightMap::new(image.heights, args.depth)?, image.covered))
-}
-
-/// Bends a height map onto a mesh.
-pub(crate) fn deflect_height_map(
-    mesh: &rilievo::surface::Mesh,
-    map: &HeightMap,
-    covered: Option<&Grid<bool>>,
-    args: &HeightArgs,
-    options: &Deflect,
-    progress: &Bars,
-) -> Result<rilievo::surface::Deflected> {
-    Ok(deflect_heights(mesh, map, covered, args.filter(), args.edges(), options, progress)?)
-}
-
-fn aspect<T>(map: &Grid<T>) -> f32 {
-    map.width() as f32 / map.height() as f32
 }
 
 fn write<S: Space>(args: &Args, normals: &NormalMap<S>, covered: Option<&Grid<bool>>, output: &Path) -> Result<()> {

@@ -28,12 +28,14 @@
 mod clip;
 mod draw;
 mod exact;
+mod frame;
 mod scene;
 mod table;
 mod target;
 mod texture;
 
 pub use draw::draw;
-pub use scene::{BaseColor, Detail, Frame, Method, Object, Scene, prepare};
+pub use frame::{Frame, prepare};
+pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::Target;
 pub use texture::TextureFilter;
