@@ -45,10 +45,10 @@ pub(crate) struct ReliefArgs {
     /// A map of material numbers, of the size of the normal map.
     #[arg(long, value_name = "MAP", help_heading = "Maps")]
     materials: Option<PathBuf>,
-    /// The space of --normals.
+    /// The space of --normals, or of an --indexed palette made by another tool.
     #[arg(long, value_enum, default_value_t = SpaceArg::Tangent, help_heading = "Maps")]
     space: SpaceArg,
-    /// Which way green points in --normals.
+    /// Which way green points in --normals, or in an --indexed palette made by another tool.
     #[arg(long, value_enum, default_value_t = ConventionArg::Gl, help_heading = "Maps")]
     convention: ConventionArg,
     #[command(flatten, next_help_heading = "Maps")]
@@ -200,8 +200,8 @@ impl ReliefArgs {
 
     fn warn_of_unused(&self, method: Method, given: &Given) {
         let vase = self.surface == SurfaceArg::Vase && self.has_no_map();
-        if self.normals.is_none() {
-            given.unused(&["space", "convention"], "they are for --normals");
+        if self.normals.is_none() && self.indexed.is_none() {
+            given.unused(&["space", "convention"], "they are for --normals and --indexed");
         }
         if self.height.is_none() && !vase {
             given.unused(&["depth", "filter"], "they are for --height");
@@ -252,7 +252,11 @@ impl ReliefArgs {
         }
         if let Some(path) = &self.indexed {
             let source = inputs::open(path)?;
-            let import = ImportAs { space: None, convention: None };
+            // For palettes made by other tools; our own files know.
+            let import = ImportAs {
+                space: given.has("space").then(|| self.space.into()),
+                convention: given.has("convention").then(|| self.convention.into()),
+            };
             let map = inputs::indexed(&source, &import)?.map;
             return Ok((self.surface.load(map.size())?, Source::Indexed(map)));
         }
