@@ -17,7 +17,7 @@ use rilievo::{Edges, Grid, LinearRgb, MaterialMap, MipChain, Object, QuantizedMa
 use rilievo_io::{AnyIndexed, ImportAs, SpaceKind};
 
 use crate::args::{ConventionArg, EffortArg, Given, HeightArgs, OntoArgs, SpaceArg};
-use crate::exit::{remark, usage};
+use crate::exit::usage;
 use crate::progress::Bars;
 use crate::surface::{SURFACE_HELP, SurfaceArg};
 use crate::{exit, inputs};
@@ -159,7 +159,9 @@ impl ReliefArgs {
     pub(crate) fn load(&self, method: Method, given: &Given) -> Result<Relief> {
         self.warn_of_unused(method, given);
         let progress = Bars::new(self.surface.stem());
-        let samples = (self.surface == SurfaceArg::Vase).then(|| vase::maps(VASE_WIDTH)).transpose()?;
+        let samples =
+            (self.surface == SurfaceArg::Vase).then(|| progress.step("drawing the maps", || vase::maps(VASE_WIDTH)));
+        let samples = samples.transpose()?;
         let own_relief = self.has_no_map();
         if samples.is_some() && own_relief && (given.has("repeat") || given.has("map_size")) {
             return Err(usage(
@@ -320,8 +322,6 @@ impl ReliefArgs {
                 let quantized = quantize::quantize(&normals, &options, progress)?;
                 let seconds = started.elapsed().as_secs_f64();
                 let entries = quantized.map.table().len();
-                let rms = quantized.error.rms_rad.to_degrees();
-                remark(format!("{}: {entries} entries, {rms:.3} degrees RMS", self.surface.stem()));
                 let report = QuantizedReport { entries, error: quantized.error, seconds };
                 Ok((OwnedDetail::Indexed(Box::new(quantized.map)), Some(report)))
             }

@@ -105,6 +105,7 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
 
 fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
     let progress = Bars::new(input.display().to_string());
+    let (filter, edges) = (args.height.filter(), args.height.edges());
     if let Some(onto) = &args.onto {
         let deflected = if args.from == InputKind::Normal {
             let image = inputs::normals::<Tangent>(input, args.convention.into())?;
@@ -115,17 +116,14 @@ fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
             let (map, covered) = inputs::height_map(input, args.height.depth)?;
             let options = args.deflect.options(onto, map.heights().size())?;
             let mesh = onto.load(map.heights().size())?;
-            {
-                let (filter, edges) = (args.height.filter(), args.height.edges());
-                deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, &progress)?
-            }
+            deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, &progress)?
         };
         crate::relief::remark_overlaps(&deflected);
-        write::<Object>(args, &deflected.normals, Some(&deflected.covered), output)?;
+        write::<Object>(args, &deflected.normals, Some(&deflected.covered), output, progress)?;
     } else {
         let (map, covered) = inputs::height_map(input, args.height.depth)?;
-        let normals = height::to_normals(&map, args.height.filter(), args.height.edges());
-        write::<Tangent>(args, &normals, covered.as_ref(), output)?;
+        let normals = progress.step("height to normal", || height::to_normals(&map, filter, edges));
+        write::<Tangent>(args, &normals, covered.as_ref(), output, progress)?;
     }
     Ok(Outcome::Done)
 }
@@ -134,13 +132,33 @@ fn is_exr(output: &Path) -> bool {
     output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
-fn write<S: Space>(args: &Args, normals: &NormalMap<S>, covered: Option<&Grid<bool>>, output: &Path) -> Result<()> {
+fn write<S: Space>(
+    args: &Args,
+    normals: &NormalMap<S>,
+    covered: Option<&Grid<bool>>,
+    output: &Path,
+    progress: Bars,
+) -> Result<()> {
+    let bytes = progress.step("packing", || encode(args, normals, covered, output))?;
+    // Before anything else is said on stderr.
+    drop(progress);
+    io::write_atomic(output, &bytes)?;
+    remark(format!("{}: {} x {} {}-space normals", output.display(), normals.width(), normals.height(), S::NAME));
+    Ok(())
+}
+
+fn encode<S: Space>(
+    args: &Args,
+    normals: &NormalMap<S>,
+    covered: Option<&Grid<bool>>,
+    output: &Path,
+) -> io::Result<Vec<u8>> {
     // Object space has no "up the picture": its maps are always +Y.
     let convention = if S::NAME == Object::NAME { ConventionArg::Gl } else { args.convention };
-    let bytes = if is_exr(output) {
-        io::encode_normals_exr(normals, convention.into(), covered)?
+    if is_exr(output) {
+        io::encode_normals_exr(normals, convention.into(), covered)
     } else if args.bits == Bits::Sixteen {
-        io::encode_normals_png16(normals, convention.into(), covered)?
+        io::encode_normals_png16(normals, convention.into(), covered)
     } else {
         let dither = match args.dither {
             Dither::None => DitherU8::None,
@@ -148,9 +166,6 @@ fn write<S: Space>(args: &Args, normals: &NormalMap<S>, covered: Option<&Grid<bo
             Dither::Diffusion => DitherU8::Diffusion,
         };
         let turned = normals.map(|&n| rilievo::Convention::from(convention).apply(n));
-        io::encode_normals_png8(&encode_map_u8(&turned, dither), covered)?
-    };
-    io::write_atomic(output, &bytes)?;
-    remark(format!("{}: {} x {} {}-space normals", output.display(), normals.width(), normals.height(), S::NAME));
-    Ok(())
+        io::encode_normals_png8(&encode_map_u8(&turned, dither), covered)
+    }
 }

@@ -155,9 +155,10 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
         remark(format!("{}: only {entries} distinct normals, so the table has {entries} entries", input.display()));
     }
     let bytes = match kind {
-        FileKind::Png => io::encode_indexed_png(&quantized.map, args.convention.into())?,
-        FileKind::Ktx2 => io::encode_ktx2(&quantized.map, args.convention.into())?,
+        FileKind::Png => progress.step("packing", || io::encode_indexed_png(&quantized.map, args.convention.into()))?,
+        FileKind::Ktx2 => progress.step("packing", || io::encode_ktx2(&quantized.map, args.convention.into()))?,
     };
+    drop(progress);
     io::write_atomic(output, &bytes)?;
     if output.as_os_str() != "-" {
         report(&quantized, output, bytes.len(), seconds).print(args.json)?;

@@ -111,10 +111,10 @@ fn relit_map<S: Space>(args: &Args, map: &QuantizedMap<S>, input: &Path) -> Resu
         frames.push(relight(map, &shades, base.as_ref())?);
         rilievo::Progress::advance(&progress, 1);
     }
-    Ok(match frames.as_slice() {
-        [only] => io::encode_picture_png(only)?,
-        _ => io::encode_apng(&frames, args.delay)?,
-    })
+    Ok(progress.step("packing", || match frames.as_slice() {
+        [only] => io::encode_picture_png(only),
+        _ => io::encode_apng(&frames, args.delay),
+    })?)
 }
 
 /// Lights a table as seen straight from the front.

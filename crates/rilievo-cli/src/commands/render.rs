@@ -105,6 +105,10 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     let n = args.supersample;
     let target = Target::new(args.size.width.saturating_mul(n), args.size.height.saturating_mul(n))?;
     let relief = args.relief.load(method, given).map_err(|e| named(e, Path::new(&args.relief.surface.stem())))?;
+    if let Some(made) = &relief.quantized {
+        let (entries, rms) = (made.entries, made.error.rms_rad.to_degrees());
+        remark(format!("{}: {entries} entries, {rms:.3} degrees RMS", args.relief.surface.stem()));
+    }
     let mut shoot = Shoot::new(args, &relief, target);
     let progress = Bars::new(args.relief.surface.stem());
     progress.begin("rendering", args.frames.into());
@@ -113,10 +117,11 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
         pictures.push(shoot.frame(frame)?);
         progress.advance(1);
     }
-    let bytes = match pictures.as_slice() {
-        [only] => io::encode_picture_png(only)?,
-        _ => io::encode_apng(&pictures, args.delay)?,
-    };
+    let bytes = progress.step("packing", || match pictures.as_slice() {
+        [only] => io::encode_picture_png(only),
+        _ => io::encode_apng(&pictures, args.delay),
+    })?;
+    drop(progress);
     io::write_atomic(&output, &bytes)?;
     remark(format!("{}: {} x {}", output.display(), args.size.width, args.size.height));
     if output.as_os_str() != "-" {
