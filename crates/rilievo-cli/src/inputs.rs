@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use rilievo::color::Picture;
 use rilievo::height::HeightMap;
-use rilievo::{Convention, Grid, LinearRgb, MaterialMap, MipChain, Rgba8, Space};
+use rilievo::{Convention, Grid, MaterialMap, Space};
 use rilievo_io::{AnyIndexed, ImportAs, IndexedFile, Limits, NormalImage, Source};
 
 use crate::exit;
@@ -60,15 +60,6 @@ pub(crate) fn materials(path: &Path) -> Result<MaterialMap> {
 /// Reads a picture.
 pub(crate) fn picture(path: &Path) -> Result<Picture> {
     Ok(rilievo_io::decode_picture(&open(path)?, &Limits::default())?)
-}
-
-/// A picture as a base colour: linear light with its mip levels.
-pub(crate) fn base_color(picture: &Picture) -> MipChain<LinearRgb> {
-    let linear = picture.map(|p: &Rgba8| LinearRgb::from_srgb(p.rgb()));
-    MipChain::build(linear, |block| {
-        let sum = block.iter().fold(LinearRgb::BLACK, |sum, &&c| sum + c);
-        sum * (1.0 / block.len() as f32)
-    })
 }
 
 fn tell(source: &Source, warnings: &[String]) {

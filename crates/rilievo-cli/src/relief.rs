@@ -179,7 +179,7 @@ impl ReliefArgs {
             (None, Some(samples)) => Some(samples.color.clone()),
             (None, None) => None,
         };
-        let base_color = color.map(|picture| (inputs::base_color(&picture), repeat));
+        let base_color = color.map(|picture| (MipChain::from_picture(&picture), repeat));
         let (detail, quantized) = self.finish(method, &mesh, source, materials, repeat, &progress)?;
         let default_materials = if samples.is_some() { DefaultMaterials::Vase } else { DefaultMaterials::Plain };
         Ok(Relief { mesh, detail, base_color, default_materials, quantized })

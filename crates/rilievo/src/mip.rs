@@ -1,5 +1,6 @@
 //! Chains of ever smaller levels of a map.
 
+use crate::color::{LinearRgb, Picture};
 use crate::grid::Grid;
 
 /// The levels of a map, largest first; each level is half the one before (rounded down, at least 1), to 1 × 1 at most.
@@ -61,6 +62,16 @@ impl<T> MipChain<T> {
     }
 }
 
+impl MipChain<LinearRgb> {
+    /// The levels of a base colour: a picture in linear light, averaged there. Alpha plays no part.
+    pub fn from_picture(picture: &Picture) -> Self {
+        Self::build(picture.map(|p| LinearRgb::from_srgb(p.rgb())), |block| {
+            let sum = block.iter().fold(LinearRgb::BLACK, |sum, &&c| sum + c);
+            sum * (1.0 / block.len() as f32)
+        })
+    }
+}
+
 /// The texels of a side of length `above` that texel `i` of the halved side covers.
 pub(crate) fn span(i: u32, above: u32) -> std::ops::Range<u32> {
     let half = (above / 2).max(1);
@@ -95,6 +106,14 @@ mod tests {
             assert_eq!(chain.levels().last().unwrap().texels(), [total], "{w}×{h}");
             assert!(MipChain::from_levels(chain.levels().to_vec()).is_ok());
         }
+    }
+
+    #[test]
+    fn pictures_are_averaged_in_linear_light() {
+        let picture = Grid::from_fn(2, 1, |x, _| crate::Rgba8::new(x as u8 * 255, 0, 0, 255)).unwrap();
+        // Half the light of full red is code 188, not 128.
+        let mean = MipChain::from_picture(&picture).level(1)[(0, 0)];
+        assert_eq!(mean.to_srgb().rgb(), [188, 0, 0]);
     }
 
     #[test]

@@ -9,7 +9,6 @@
 //! difference pictures show it along ridges and at the terminator, where a pixel sees both lit and unlit texels.
 #![expect(clippy::unwrap_used, clippy::print_stderr, reason = "tests fail loudly and tell their figures")]
 
-use glam::Vec3;
 use rilievo::color::Picture;
 use rilievo::height::{Filter, HeightMap, to_normals};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable, relight};
@@ -41,10 +40,8 @@ fn heights(name: &str) -> Option<Grid<f32>> {
 
 /// A white light from 45° to the left and 40° above, and a little from everywhere.
 fn lighting<S: Space>() -> Lighting<S> {
-    let (azimuth, elevation) = ((-45.0f32).to_radians(), 40.0f32.to_radians());
-    let toward = Vec3::new(elevation.cos() * azimuth.sin(), elevation.sin(), elevation.cos() * azimuth.cos());
-    let lights = vec![DirectionalLight { direction: Normal::new(toward).unwrap(), color: LinearRgb::WHITE }];
-    Lighting { ambient: LinearRgb::gray(0.1), lights }
+    let light = DirectionalLight::from_angles((-45.0f32).to_radians(), 40.0f32.to_radians(), LinearRgb::WHITE);
+    Lighting { ambient: LinearRgb::gray(0.1), lights: vec![light] }.facing()
 }
 
 /// A relief on a mesh, as it is and quantised.

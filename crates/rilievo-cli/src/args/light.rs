@@ -3,9 +3,8 @@
 use std::str::FromStr;
 
 use clap::Args;
-use glam::Vec3;
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material};
-use rilievo::{LinearRgb, Normal, World};
+use rilievo::{LinearRgb, World};
 
 use super::values::finite;
 use super::{ColorArg, ModelArg};
@@ -49,10 +48,7 @@ pub(crate) struct LightArg {
 
 impl LightArg {
     fn resolve(&self, turn_rad: f32) -> DirectionalLight<World> {
-        let (sin_a, cos_a) = (self.azimuth_rad + turn_rad).sin_cos();
-        let (sin_e, cos_e) = self.elevation_rad.sin_cos();
-        let toward = Vec3::new(cos_e * sin_a, sin_e, cos_e * cos_a);
-        DirectionalLight { direction: Normal::new_or(toward, Normal::Z), color: self.color }
+        DirectionalLight::from_angles(self.azimuth_rad + turn_rad, self.elevation_rad, self.color)
     }
 }
 
@@ -121,6 +117,7 @@ impl FromStr for MaterialArg {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     #[test]
     fn lights_come_from_where_they_say() {

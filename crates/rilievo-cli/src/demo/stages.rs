@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use rilievo::color::Picture;
 use rilievo::height::{Filter, to_normals};
 use rilievo::light::{DirectionalLight, Lighting, LightingModel, ShadeTable};
@@ -21,7 +21,6 @@ use rilievo::{
 use rilievo_io::{self as io, PalettePng, Source};
 
 use super::{Entry, Section};
-use crate::inputs;
 use crate::progress::Bars;
 
 /// Frames of the turntable.
@@ -50,7 +49,7 @@ impl<'a> Demo<'a> {
         let maps = vase::maps(width)?;
         let maps_seconds = started.elapsed().as_secs_f64();
         let mesh = vase::mesh(vase::DEFAULT_SEGMENTS)?;
-        let color = inputs::base_color(&maps.color);
+        let color = MipChain::from_picture(&maps.color);
         Ok(Self { folder, mesh, maps, color, maps_seconds })
     }
 
@@ -284,9 +283,7 @@ impl<'a> Demo<'a> {
 /// A warm key light that moves, and a weak cool one that does not.
 fn lights(azimuth_deg: f32, elevation_deg: f32) -> Lighting<World> {
     let light = |azimuth: f32, elevation: f32, color| {
-        let ((sin_a, cos_a), (sin_e, cos_e)) = (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
-        let toward = Vec3::new(cos_e * sin_a, sin_e, cos_e * cos_a);
-        DirectionalLight { direction: Normal::new_or(toward, Normal::Z), color }
+        DirectionalLight::from_angles(azimuth.to_radians(), elevation.to_radians(), color)
     };
     Lighting {
         ambient: LinearRgb::new(0.10, 0.10, 0.11),

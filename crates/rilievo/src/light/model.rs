@@ -1,5 +1,7 @@
 //! Lighting models: normal → light.
 
+use glam::Vec3;
+
 use crate::color::LinearRgb;
 use crate::light::Material;
 use crate::normal::{Normal, Object, Space, World};
@@ -12,6 +14,15 @@ pub struct DirectionalLight<S> {
     pub direction: Normal<S>,
     /// Linear colour times intensity: what a white matte surface facing the light shows.
     pub color: LinearRgb,
+}
+
+impl DirectionalLight<World> {
+    /// A light from the given side: azimuth 0 is the front (+Z) and π/2 the right (+X), elevation goes up from the horizon.
+    pub fn from_angles(azimuth_rad: f32, elevation_rad: f32, color: LinearRgb) -> Self {
+        let ((sin_a, cos_a), (sin_e, cos_e)) = (azimuth_rad.sin_cos(), elevation_rad.sin_cos());
+        let toward = Vec3::new(cos_e * sin_a, sin_e, cos_e * cos_a);
+        Self { direction: Normal::new_or(toward, Normal::Z), color }
+    }
 }
 
 /// All light that falls on an object, in space `S`.
@@ -109,7 +120,6 @@ pub fn shade<S: Space>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
 
     fn from_left() -> Lighting<Object> {
         let direction = Normal::new(Vec3::new(-1.0, 0.0, 1.0)).unwrap();

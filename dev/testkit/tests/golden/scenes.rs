@@ -96,10 +96,7 @@ pub(crate) fn vase() -> Picture {
     let options = Deflect { gutter: 4, ..Deflect::new(size) };
     let bent = deflect_heights(&mesh, &maps.height, None, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap();
     let map = table_of(&bent, 256, Some(&maps.materials));
-    let color = maps.color.map(|p| LinearRgb::from_srgb(p.rgb()));
-    let color = MipChain::build(color, |block| {
-        block.iter().fold(LinearRgb::BLACK, |sum, &&c| sum + c) * (1.0 / block.len() as f32)
-    });
+    let color = MipChain::from_picture(&maps.color);
     let materials = sample::materials_over_color();
     let base_color = Some(BaseColor { levels: &color, repeat: Vec2::ONE });
     let object = Object { base_color, ..object(&mesh, Detail::Indexed(&map), &materials) };
