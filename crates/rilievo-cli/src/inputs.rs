@@ -42,7 +42,7 @@ pub(crate) fn any_normals<S: Space>(source: &Source, convention: Convention) -> 
         AnyIndexed::Tangent(map) => map.expand().map(|n| n.relabel()),
         AnyIndexed::Object(map) => map.expand().map(|n| n.relabel()),
     };
-    Ok(NormalImage { normals, covered: None, depth: rilievo_io::Depth::U16, warnings: Vec::new() })
+    Ok(NormalImage { normals, colors: None, covered: None, depth: rilievo_io::Depth::U16, warnings: Vec::new() })
 }
 
 /// Reads an index map with its table.

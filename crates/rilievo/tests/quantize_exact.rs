@@ -224,3 +224,20 @@ fn results_are_the_same_bits_everywhere() {
 /// Changes whenever the algorithm does; then copy the new value from the failing test, after looking at the errors
 /// `quantize_quality.rs` prints.
 const DIGEST: u64 = 17_864_163_697_366_898_145;
+
+#[test]
+fn colours_and_their_normals_give_the_same() {
+    let mut random = Random::new(5);
+    let mut color = || [0, 1, 2].map(|k| (random.range(0.0, 40.0) as u8) * if k == 2 { 6 } else { 3 });
+    let codes = Grid::from_fn(90, 70, |_, _| color()).unwrap();
+    let map = codes.map(|&c| rilievo::normal::decode_u8::<Object>(c));
+    let materials = Grid::from_fn(90, 70, |x, _| (x / 30) as u8).unwrap();
+    let covered = Grid::from_fn(90, 70, |x, y| (x + y) % 9 != 0).unwrap();
+    for (materials, covered) in [(None, None), (None, Some(&covered)), (Some(&materials), Some(&covered))] {
+        for entries in [40, 65_536] {
+            let options = Options { entries, materials, covered, mip_levels: true, ..Options::default() };
+            let (a, b) = (run(&map, &options), quantize::<Object>(&codes, &options, &Silent).unwrap());
+            assert_eq!((a.map, a.distinct, a.error), (b.map, b.distinct, b.error));
+        }
+    }
+}

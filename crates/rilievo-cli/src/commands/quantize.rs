@@ -136,9 +136,9 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
     let started = Instant::now();
     let progress = Bars::new(input.display().to_string());
     let quantized = match args.max_rms {
-        None => quantize::quantize(&image.normals, &options, &progress)?,
+        None => quantize::quantize(image.texels(), &options, &progress)?,
         Some(degrees) => {
-            let found = quantize::quantize_within(&image.normals, degrees.to_radians(), &options, &progress)?;
+            let found = quantize::quantize_within(image.texels(), degrees.to_radians(), &options, &progress)?;
             let Some(quantized) = found else {
                 warn(
                     &input.display().to_string(),

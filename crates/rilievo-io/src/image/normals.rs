@@ -1,6 +1,7 @@
 //! Normal maps in.
 
 use rilievo::normal::{decode_u8, decode_u16};
+use rilievo::quantize::Texels;
 use rilievo::{Convention, Grid, Normal, NormalMap, Space, Tangent};
 
 use super::decode_raster;
@@ -14,12 +15,22 @@ use crate::source::Source;
 pub struct NormalImage<S> {
     /// Unit normals, +Y up; +Z where not covered.
     pub normals: NormalMap<S>,
+    /// The 24-bit colours they were decoded from, +Y up: a quantiser is faster with them. `None` for other depths, and
+    /// where not all is covered.
+    pub colors: Option<Grid<[u8; 3]>>,
     /// Where alpha is above zero; `None` if that is everywhere.
     pub covered: Option<Grid<bool>>,
     /// How the samples were stored.
     pub depth: Depth,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+impl<S: Space> NormalImage<S> {
+    /// What to give to [`rilievo::quantize::quantize`]: the colours if there are any, else the normals.
+    pub fn texels(&self) -> Texels<'_, S> {
+        self.colors.as_ref().map_or(Texels::Normals(&self.normals), Texels::Rgb8)
+    }
 }
 
 /// Decodes a colour picture as normals and renormalises them.
@@ -55,7 +66,17 @@ pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits:
         }
     };
     let warnings = lengths.warnings::<S>(&raster);
-    Ok(NormalImage { normals: raster.grid(normals), covered, depth: raster.depth(), warnings })
+    let colors = match raster.samples() {
+        Samples::U8(v) if covered.is_none() => Some(raster.grid(colors(v, raster.channels(), convention))),
+        _ => None,
+    };
+    Ok(NormalImage { normals: raster.grid(normals), colors, covered, depth: raster.depth(), warnings })
+}
+
+/// The colours alone, +Y up. 255 − c stands for exactly the opposite of c.
+fn colors(samples: &[u8], channels: usize, convention: Convention) -> Vec<[u8; 3]> {
+    let green = |g: u8| if convention == Convention::Dx { 255 - g } else { g };
+    samples.chunks_exact(channels).map(|t| [t[0], green(t[1]), t[2]]).collect()
 }
 
 /// One normal per texel, rows in parallel; +Z where not covered.

@@ -5,5 +5,6 @@ mod flip;
 mod picture;
 
 pub use angle::{AngleStats, angle_stats};
+pub(crate) use angle::{angle_of_chord, weighted_angle_stats};
 pub use flip::{DEFAULT_PIXELS_PER_DEGREE, flip_map, flip_mean};
 pub use picture::{PictureStats, picture_stats};

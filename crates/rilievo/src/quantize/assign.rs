@@ -3,14 +3,20 @@
 //! Filtering down the quadtree (after Kanungo et al. 2002, "An efficient k-means clustering algorithm"): a node keeps
 //! the candidates that may be nearest to something inside its ball. Mostly one is left long before the leaves, and the
 //! whole node is done at once. No point's answer is approximate: see [`Assigner::assign_exact`].
+//!
+//! The loops work on [`LANES`] values side by side and are compiled once for every instruction set, chosen at run time.
+//! None of them fuses or reorders an operation, so the set is not in the result.
 
+use std::ops::Range;
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::candidates::{Candidates, TINY};
 use super::entries::{Entries, squared_f64};
 use super::points::{LANES, Points};
-use super::tree::{SLACK, Tree, add, squared};
+use super::tree::{SLACK, Tree, add};
 use crate::par;
 
-/// Absolute slack where squares underflow; no two different unit vectors of f32 that matter are so close.
-const TINY: f32 = 1e-15;
 /// Into how many tasks of equal size work is cut, about. Fixed, so that sums are the same for any thread count.
 const TASKS: usize = 16;
 /// A task is not cut below so many points.
@@ -32,6 +38,7 @@ pub(super) struct Assigner<'a> {
     tree: &'a Tree,
     /// Node and group; together they hold every point once, in order.
     tasks: Vec<(u32, usize)>,
+    level: Level,
 }
 
 impl<'a> Assigner<'a> {
@@ -51,7 +58,7 @@ impl<'a> Assigner<'a> {
                 }
             }
         }
-        Self { points, tree, tasks }
+        Self { points, tree, tasks, level: Level::new() }
     }
 
     /// Nearest in f32 arithmetic: all that shaping a table needs.
@@ -65,11 +72,16 @@ impl<'a> Assigner<'a> {
     }
 
     fn run<const EXACT: bool>(&self, entries: &Entries) -> Assignment {
+        let of_group =
+            |span: &Range<usize>| Candidates::new(span.clone().map(|e| entries.directions[e]).zip(span.start as u32..));
+        let groups: Vec<Candidates> = entries.spans.iter().map(of_group).collect();
         let done = par::map_range(self.tasks.len(), |task| {
             let (node, group) = self.tasks[task];
-            let mut search = Search::<EXACT>::new(self.points, self.tree, entries, node, group);
-            search.visit(node, 0..search.ids.len());
-            (search.ids, search.sums, search.owners)
+            dispatch!(self.level, simd => {
+                let mut search = Search::<EXACT>::new(simd, self.points, self.tree, &groups[group], node);
+                search.descend(simd, node);
+                (search.ids, search.sums, search.owners)
+            })
         });
         let mut all = Assignment { sums: vec![[0.0; 4]; entries.len()], owners: Vec::with_capacity(self.points.len()) };
         for (ids, sums, owners) in done {
@@ -87,94 +99,70 @@ impl<'a> Assigner<'a> {
 struct Search<'a, const EXACT: bool> {
     points: &'a Points,
     tree: &'a Tree,
-    /// The candidates of this task: table index (rising) and direction.
+    /// The candidates of this task, by table index (rising).
     ids: Vec<u32>,
-    directions: Vec<[f32; 3]>,
     sums: Vec<[f64; 4]>,
     /// Entry of each point of the task's node.
     owners: Vec<u32>,
     /// The first of these points.
     first: u32,
     /// Candidates of all nodes on the way down, each node's after its parent's.
-    stack: Vec<u32>,
-    distances: Vec<f32>,
+    stack: Candidates,
 }
 
 impl<'a, const EXACT: bool> Search<'a, EXACT> {
-    fn new(points: &'a Points, tree: &'a Tree, entries: &Entries, node: u32, group: usize) -> Self {
+    /// `all` are the entries of the task's group, numbered as in the table.
+    #[inline(always)]
+    fn new<S: Simd>(_simd: S, points: &'a Points, tree: &'a Tree, all: &Candidates, node: u32) -> Self {
         let n = &tree.nodes[node as usize];
-        let span = entries.spans[group].clone();
-        let distances: Vec<f32> = entries.directions[span.clone()].iter().map(|&e| squared(e, n.center)).collect();
-        let reach = reach(distances.iter().fold(f32::MAX, |a, &b| a.min(b)), n.radius);
-        let near = || span.clone().zip(&distances).filter(|&(_, &d)| d <= reach).map(|(id, _)| id);
-        let ids: Vec<u32> = near().map(|id| id as u32).collect();
+        let mut stack = all.clone();
+        let near = stack.filter(all.all(), n.center, n.radius);
+        let ids: Vec<u32> = stack.iter(near.clone()).map(|(id, _)| id).collect();
         Self {
             points,
             tree,
-            directions: near().map(|id| entries.directions[id]).collect(),
             sums: vec![[0.0; 4]; ids.len()],
             owners: vec![0; (n.last - n.first) as usize],
             first: n.first,
-            stack: (0..ids.len() as u32).collect(),
+            stack: Candidates::new(stack.iter(near).map(|(_, direction)| direction).zip(0..)),
             ids,
-            distances,
         }
     }
 
-    /// Assigns the points of `node`, whose parent's candidates are at `parent` on the stack.
-    fn visit(&mut self, node: u32, parent: std::ops::Range<usize>) {
-        let n = &self.tree.nodes[node as usize];
-        let kept = self.stack.len();
-        self.filter(n.center, n.radius, parent);
-        let candidates = kept..self.stack.len();
-        if candidates.len() == 1 {
-            let only = self.stack[kept] as usize;
-            self.sums[only] = add(self.sums[only], n.moment);
-            self.owners[(n.first - self.first) as usize..(n.last - self.first) as usize].fill(self.ids[only]);
-        } else if n.end == node + 1 {
-            for first in (n.first..n.last).step_by(LANES) {
-                self.scan(first as usize, (n.last - first).min(LANES as u32) as usize, candidates.clone());
-            }
-        } else {
-            for child in self.tree.children(node) {
-                self.visit(child, candidates.clone());
-            }
-        }
-        self.stack.truncate(kept);
-    }
-
-    /// Pushes those of the parent's candidates that may be nearest to a point of the ball.
-    fn filter(&mut self, center: [f32; 3], radius: f32, parent: std::ops::Range<usize>) {
-        // Distances first, in a loop without branches; this function is where most of the time goes.
-        let Self { stack, directions, distances, .. } = self;
-        distances.clear();
-        distances.extend(stack[parent.clone()].iter().map(|&c| squared(directions[c as usize], center)));
-        let nearest = distances.iter().fold(f32::MAX, |a, &d| if d < a { d } else { a });
-        let Some(best) = distances.iter().position(|&d| d == nearest) else { return };
-        let best = directions[stack[parent.start + best] as usize];
-        let reach = reach(nearest, radius);
-        let diameter = 4.0 * radius * radius * (1.0 + SLACK);
-        for (k, &d) in distances.iter().enumerate() {
-            if d > reach {
-                continue;
-            }
-            let c = stack[parent.start + k];
-            // The whole ball lies on the best one's side of the plane between the two.
-            let ahead = d - nearest - d * SLACK;
-            let beaten = ahead > TINY && ahead * ahead > diameter * squared(directions[c as usize], best);
-            if !beaten {
-                stack.push(c);
+    /// Assigns all points of `root`. A loop and not a recursion, so that all of it is compiled for the level at hand.
+    #[inline(always)]
+    fn descend<S: Simd>(&mut self, _simd: S, root: u32) {
+        // Nodes whose turn will come, with where their parents' candidates lie.
+        let mut open = vec![(root, self.stack.all())];
+        while let Some((node, parent)) = open.pop() {
+            let n = &self.tree.nodes[node as usize];
+            let candidates = self.stack.filter(parent, n.center, n.radius);
+            if candidates.len() == 1 {
+                let only = self.stack.id(candidates.start) as usize;
+                self.sums[only] = add(self.sums[only], n.moment);
+                self.owners[(n.first - self.first) as usize..(n.last - self.first) as usize].fill(self.ids[only]);
+            } else if n.end == node + 1 {
+                for first in (n.first..n.last).step_by(LANES) {
+                    self.scan(first as usize, (n.last - first).min(LANES as u32) as usize, candidates.clone());
+                }
+            } else {
+                let at = open.len();
+                open.extend(self.tree.children(node).map(|child| (child, candidates.clone())));
+                // The sums are in the order of the points.
+                open[at..].reverse();
             }
         }
     }
 
     /// Assigns `count` ≤ [`LANES`] points from `first` to the nearest of the candidates.
-    fn scan(&mut self, first: usize, count: usize, candidates: std::ops::Range<usize>) {
-        let lanes = |v: &[f32]| -> [f32; LANES] { std::array::from_fn(|l| v[first..first + LANES][l]) };
+    #[inline(always)]
+    fn scan(&mut self, first: usize, count: usize, candidates: Range<usize>) {
+        let lanes = |v: &[f32]| -> [f32; LANES] {
+            v[first..first + LANES].try_into().expect("invariant: the arrays are padded by LANES")
+        };
         let (x, y, z) = (lanes(&self.points.x), lanes(&self.points.y), lanes(&self.points.z));
         let (mut nearest, mut second, mut who) = ([f32::MAX; LANES], [f32::MAX; LANES], [0u32; LANES]);
-        for &c in &self.stack[candidates.clone()] {
-            let [cx, cy, cz] = self.directions[c as usize];
+        for (c, [cx, cy, cz]) in self.stack.iter(candidates.clone()) {
             for l in 0..LANES {
                 let (dx, dy, dz) = (x[l] - cx, y[l] - cy, z[l] - cz);
                 let d = dx * dx + dy * dy + dz * dz;
@@ -200,10 +188,10 @@ impl<'a, const EXACT: bool> Search<'a, EXACT> {
     }
 
     /// The nearest by [`squared_f64`], where f32 cannot tell.
-    fn decide(&self, point: [f32; 3], candidates: std::ops::Range<usize>) -> u32 {
+    fn decide(&self, point: [f32; 3], candidates: Range<usize>) -> u32 {
         let (mut nearest, mut who) = (f64::INFINITY, 0);
-        for &c in &self.stack[candidates] {
-            let d = squared_f64(point.map(f64::from), self.directions[c as usize]);
+        for (c, direction) in self.stack.iter(candidates) {
+            let d = squared_f64(point.map(f64::from), direction);
             if d < nearest {
                 (nearest, who) = (d, c);
             }
@@ -212,18 +200,22 @@ impl<'a, const EXACT: bool> Search<'a, EXACT> {
     }
 }
 
-/// The squared distance from a ball's centre beyond which nothing is nearest to any of its points, if the candidate
-/// nearest to the centre is at the squared distance `nearest`.
-fn reach(nearest: f32, radius: f32) -> f32 {
-    let reach = (nearest.sqrt() + 2.0 * radius) * (1.0 + SLACK) + TINY;
-    reach * reach
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::seed::seed;
     use super::super::testing::{brute_force, scattered};
     use super::*;
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let points = scattered(20_000, 2);
+        let tree = Tree::build(&points, 16);
+        let entries = seed(&points, 300);
+        let best = Assigner::new(&points, &tree);
+        let plain = Assigner { level: Level::baseline(), ..Assigner::new(&points, &tree) };
+        assert_eq!(best.assign(&entries), plain.assign(&entries));
+        assert_eq!(best.assign_exact(&entries), plain.assign_exact(&entries));
+    }
 
     #[test]
     fn exact_assignment_agrees_with_brute_force() {

@@ -43,7 +43,11 @@ impl Schedule {
             _ => 16,
         };
         match effort {
-            Effort::Fast => Self { density: 16, hot: 0, cool: 12, fine: 2, heat: 0.0, omega: 1.5 },
+            Effort::Fast => match count {
+                0..=512 => Self { density: 8, hot: 18, cool: 8, fine: 3, heat: 0.3, omega: 1.5 },
+                513..=4096 => Self { density: 8, hot: 12, cool: 4, fine: 4, heat: 0.25, omega: 1.7 },
+                _ => Self { density: 16, hot: 12, cool: 8, fine: 1, heat: 0.3, omega: 1.7 },
+            },
             Effort::Normal => Self { density, hot, cool: 30, fine: 6, heat: 0.4, omega: 1.6 },
             Effort::Best => Self { density: 2 * density, hot: 5 * hot, cool: 60, fine: 20, heat: 0.5, omega: 1.6 },
         }

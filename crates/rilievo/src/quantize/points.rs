@@ -1,21 +1,24 @@
 //! The distinct (normal, material) pairs of a map, with how often each occurs.
 //!
-//! Real maps repeat themselves (an 8-bit map of a million texels has some ten thousand directions), and every later
-//! stage works on distinct directions only. Space: 16 bytes per run of equal texels while sorting, 4 per texel and
-//! 16 per distinct pair afterwards.
+//! Real maps repeat themselves, and every later stage works on distinct directions only. Texels are sorted by where they
+//! lie on the sphere, 24-bit colours only after the distinct ones were found ([`super::colors`]). Space: 16 bytes per run of
+//! equal texels while sorting, 4 per texel and 16 per distinct pair afterwards.
 
 use std::ops::Range;
 
+use super::colors::{self, Colors};
 use super::octahedral::{MORTON_CODE_BITS, morton};
-use crate::{Grid, MaterialMap, NormalMap, Space, par};
+use super::texels::Texels;
+use crate::normal::decode_u8;
+use crate::{Grid, MaterialMap, Normal, NormalMap, Space, par};
 
 /// How many points the kernels handle side by side; the arrays are padded by as many.
 pub(super) const LANES: usize = 8;
 /// Marks a texel that has no point because it is not covered.
 pub(super) const NO_POINT: u32 = u32::MAX;
-/// Bits of a texel's number; with a Morton code they fill 64 bits. [`crate::grid::MAX_TEXELS`] fits exactly.
-const TEXEL_BITS: u32 = 64 - MORTON_CODE_BITS;
-const _: () = assert!(crate::grid::MAX_TEXELS <= 1 << TEXEL_BITS);
+/// Bits of the number of a texel or of a distinct colour; with a Morton code they fill 64 bits. [`crate::grid::MAX_TEXELS`] fits exactly.
+const ITEM_BITS: u32 = 64 - MORTON_CODE_BITS;
+const _: () = assert!(crate::grid::MAX_TEXELS <= 1 << ITEM_BITS);
 /// Texels that are looked at together. Part of the result's definition only in that runs end at its multiples.
 const PIECE: usize = 1 << 16;
 
@@ -36,6 +39,8 @@ pub(super) struct Points {
     pub y: Vec<f32>,
     pub z: Vec<f32>,
     pub weight: Vec<f32>,
+    /// Morton codes; not padded.
+    pub codes: Vec<u64>,
     /// In rising order of material.
     pub groups: Vec<Group>,
 }
@@ -48,6 +53,7 @@ impl Points {
             let first = all.x.len();
             for (direction, weight) in points {
                 all.push(direction, weight);
+                all.codes.push(morton(direction));
             }
             all.groups.push(Group { material, points: first..all.x.len() });
         }
@@ -60,6 +66,32 @@ impl Points {
         self.y.push(y);
         self.z.push(z);
         self.weight.push(weight);
+    }
+
+    /// Adds a group, without weights: the items of sorted keys, equal ones as one point.
+    fn add_group(
+        &mut self,
+        material: u8,
+        keys: &[u64],
+        identity: impl Fn(usize) -> [u32; 3],
+        mut found: impl FnMut(usize, u32),
+    ) {
+        let first = self.x.len();
+        let item = |key: &u64| (key & ((1 << ITEM_BITS) - 1)) as usize;
+        let mut cell = Vec::new();
+        for keys in keys.chunk_by(|a, b| a >> ITEM_BITS == b >> ITEM_BITS) {
+            cell.clear();
+            cell.extend(keys.iter().map(|key| (identity(item(key)), item(key))));
+            // In most cells all are equal, and then in order already.
+            cell.sort_unstable();
+            for equal in cell.chunk_by(|a, b| a.0 == b.0) {
+                let point = self.x.len() as u32;
+                self.push(equal[0].0.map(f32::from_bits), 0.0);
+                self.codes.push(keys[0] >> ITEM_BITS);
+                equal.iter().for_each(|&(_, item)| found(item, point));
+            }
+        }
+        self.groups.push(Group { material, points: first..self.x.len() });
     }
 
     fn pad(&mut self) {
@@ -84,21 +116,53 @@ impl Points {
 pub(super) struct Gathered {
     /// The distinct covered (normal, material) pairs; the weight of each is its number of texels.
     pub points: Points,
-    /// The point of each texel, [`NO_POINT`] where it is not covered.
+    /// The class of each texel, [`NO_POINT`] where it is not covered. Texels of a class are equal; a point may have
+    /// several classes (colours of the same direction).
+    pub class_of: Vec<u32>,
+    /// The point of each class.
     pub point_of: Vec<u32>,
 }
 
-/// What makes two texels the same. −0 equals 0.
-fn identity<S: Space>(map: &NormalMap<S>, texel: usize) -> [u32; 3] {
-    map.texels()[texel].vec().to_array().map(|c| (c + 0.0).to_bits())
+/// What makes two normals the same. −0 equals 0.
+fn identity<S: Space>(normal: Normal<S>) -> [u32; 3] {
+    normal.vec().to_array().map(|c| (c + 0.0).to_bits())
 }
 
-/// Finds the distinct covered (normal, material) pairs of `map`. Sizes must agree.
+/// Where a normal stands, and whose it is.
+fn key<S: Space>(normal: Normal<S>, item: usize) -> u64 {
+    morton(normal.vec().to_array()) << ITEM_BITS | item as u64
+}
+
+/// Finds the distinct covered (normal, material) pairs of a map. Sizes must agree.
 pub(super) fn gather<S: Space>(
-    map: &NormalMap<S>,
+    texels: Texels<'_, S>,
     materials: Option<&MaterialMap>,
     covered: Option<&Grid<bool>>,
 ) -> Gathered {
+    match (texels, materials) {
+        (Texels::Rgb8(codes), None) => of_colors::<S>(codes, covered),
+        _ => of_texels(&texels.decoded(), materials, covered),
+    }
+}
+
+fn of_colors<S: Space>(codes: &Grid<[u8; 3]>, covered: Option<&Grid<bool>>) -> Gathered {
+    let Colors { distinct, counts, rank_of } = colors::distinct(codes.texels(), covered.map(Grid::texels));
+    let normals = par::map_range(distinct.len(), |rank| decode_u8::<S>(distinct[rank]));
+    let mut keys = par::map_range(distinct.len(), |rank| key(normals[rank], rank));
+    par::sort_unstable(&mut keys);
+    let mut points = Points::default();
+    let mut point_of = vec![NO_POINT; distinct.len()];
+    if !keys.is_empty() {
+        points.add_group(0, &keys, |rank| identity(normals[rank]), |rank, point| point_of[rank] = point);
+    }
+    for (&point, count) in point_of.iter().zip(counts) {
+        points.weight[point as usize] += count as f32;
+    }
+    points.pad();
+    Gathered { points, class_of: rank_of, point_of }
+}
+
+fn of_texels<S: Space>(map: &NormalMap<S>, materials: Option<&MaterialMap>, covered: Option<&Grid<bool>>) -> Gathered {
     let texels = map.texels();
     let is_covered = |texel: usize| covered.is_none_or(|c| c.texels()[texel]);
     let material_of = |texel: usize| materials.map_or(0, |m| m.texels()[texel]);
@@ -107,38 +171,22 @@ pub(super) fn gather<S: Space>(
     let pieces = par::map_range(texels.len().div_ceil(PIECE), |piece| {
         let first = piece * PIECE;
         let starts_run = |&t: &usize| is_covered(t) && (t == first || !is_covered(t - 1) || !same(t, t - 1));
-        let key = |t: usize| morton(texels[t].vec().to_array()) << TEXEL_BITS | t as u64;
+        let key = |t: usize| key(texels[t], t);
         (first..texels.len().min(first + PIECE)).filter(starts_run).map(key).collect::<Vec<_>>()
     });
     let mut keys = pieces.concat();
     drop(pieces);
     par::sort_unstable(&mut keys);
 
-    let mut point_of = vec![NO_POINT; texels.len()];
+    let mut class_of = vec![NO_POINT; texels.len()];
     let mut points = Points::default();
     for (material, keys) in by_material(keys, materials) {
-        let first = points.x.len();
-        let mut cell = Vec::new();
-        for keys in keys.chunk_by(|a, b| a >> TEXEL_BITS == b >> TEXEL_BITS) {
-            let texel = |key: &u64| (key & ((1 << TEXEL_BITS) - 1)) as usize;
-            cell.clear();
-            cell.extend(keys.iter().map(|key| (identity(map, texel(key)), texel(key))));
-            // In most cells all are equal, and then in order already.
-            cell.sort_unstable();
-            for equal in cell.chunk_by(|a, b| a.0 == b.0) {
-                let id = points.x.len() as u32;
-                points.push(equal[0].0.map(f32::from_bits), 0.0);
-                for &(_, texel) in equal {
-                    point_of[texel] = id;
-                }
-            }
-        }
-        points.groups.push(Group { material, points: first..points.x.len() });
+        points.add_group(material, &keys, |texel| identity(texels[texel]), |texel, point| class_of[texel] = point);
     }
 
     let mut counts = vec![0u32; points.x.len()];
     let mut current = NO_POINT;
-    for (texel, point) in point_of.iter_mut().enumerate() {
+    for (texel, point) in class_of.iter_mut().enumerate() {
         if *point != NO_POINT {
             current = *point;
         } else if is_covered(texel) {
@@ -151,8 +199,9 @@ pub(super) fn gather<S: Space>(
     for (weight, count) in points.weight.iter_mut().zip(counts) {
         *weight = count as f32;
     }
+    let point_of = (0..points.x.len() as u32).collect();
     points.pad();
-    Gathered { points, point_of }
+    Gathered { points, class_of, point_of }
 }
 
 /// Sorted keys of texels, parted by material without losing their order; in rising order of material.
@@ -162,7 +211,7 @@ fn by_material(keys: Vec<u64>, materials: Option<&MaterialMap>) -> Vec<(u8, Vec<
         Some(materials) => {
             let mut parts = vec![Vec::new(); 256];
             for key in keys {
-                let texel = (key & ((1 << TEXEL_BITS) - 1)) as usize;
+                let texel = (key & ((1 << ITEM_BITS) - 1)) as usize;
                 parts[usize::from(materials.texels()[texel])].push(key);
             }
             parts
@@ -176,7 +225,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::{Normal, Object};
+    use crate::Object;
 
     fn map(directions: &[[f32; 3]]) -> NormalMap<Object> {
         let normals = directions.iter().map(|&d| Normal::new(Vec3::from_array(d)).unwrap()).collect();
@@ -187,9 +236,9 @@ mod tests {
     fn equal_texels_share_a_point_and_zeros_have_no_sign() {
         let z = [0.0, 0.0, 1.0];
         let map = map(&[z, z, [1.0, 0.0, 0.0], [-0.0, 0.0, 1.0], z, [0.0, 1.0, 0.0]]);
-        let found = gather(&map, None, None);
+        let found = gather(Texels::Normals(&map), None, None);
         assert_eq!(found.points.len(), 3);
-        let p = &found.point_of;
+        let p = &found.class_of;
         assert!(p[0] == p[1] && p[1] == p[3] && p[3] == p[4] && p[0] != p[2] && p[5] != p[2]);
         assert_eq!(found.points.weight[p[0] as usize], 4.0);
         assert_eq!(found.points.at(p[2] as usize), [1.0, 0.0, 0.0]);
@@ -200,8 +249,8 @@ mod tests {
         let map = map(&[[0.0, 0.0, 1.0]; 5]);
         let materials = Grid::new(5, 1, vec![7, 7, 3, 3, 7]).unwrap();
         let covered = Grid::new(5, 1, vec![true, false, true, true, true]).unwrap();
-        let found = gather(&map, Some(&materials), Some(&covered));
-        assert_eq!(found.point_of, [1, NO_POINT, 0, 0, 1]);
+        let found = gather(Texels::Normals(&map), Some(&materials), Some(&covered));
+        assert_eq!(found.class_of, [1, NO_POINT, 0, 0, 1]);
         assert_eq!(found.points.weight[..2], [2.0, 2.0]);
         let group = |material, points| Group { material, points };
         assert_eq!(found.points.groups, [group(3, 0..1), group(7, 1..2)]);
@@ -210,8 +259,8 @@ mod tests {
     #[test]
     fn weights_and_ids_survive_runs_over_pieces() {
         let flat = Grid::filled(1 << 9, 1 << 9, Normal::<Object>::Z).unwrap();
-        let found = gather(&flat, None, None);
+        let found = gather(Texels::Normals(&flat), None, None);
         assert_eq!((found.points.len(), found.points.weight[0]), (1, 262_144.0));
-        assert!(found.point_of.iter().all(|&p| p == 0));
+        assert!(found.class_of.iter().all(|&p| p == 0));
     }
 }

@@ -1,8 +1,8 @@
 //! The smallest table that is good enough.
 
-use super::{Options, Quantized, quantize};
+use super::{Options, Quantized, Texels, quantize};
 use crate::progress::Silent;
-use crate::{NormalMap, Progress, Result, Space};
+use crate::{Progress, Result, Space};
 
 /// Quantises `map` to the smallest table whose RMS error is at most `max_rms_rad` radians; `None` if the largest table
 /// misses it.
@@ -13,12 +13,13 @@ use crate::{NormalMap, Progress, Result, Space};
 ///
 /// # Errors
 /// As [`quantize`].
-pub fn quantize_within<S: Space>(
-    map: &NormalMap<S>,
+pub fn quantize_within<'a, S: Space>(
+    map: impl Into<Texels<'a, S>>,
     max_rms_rad: f64,
     options: &Options<'_>,
     progress: &dyn Progress,
 ) -> Result<Option<Quantized<S>>> {
+    let map = map.into();
     progress.begin("looking for the smallest table", 16);
     let fewest = fewest_entries(options);
     let rms = |entries: u32| -> Result<f64> {

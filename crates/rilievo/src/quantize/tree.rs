@@ -1,6 +1,5 @@
 //! A quadtree over points in Morton order: every node has a bounding ball and the moments of what is in it.
 
-use super::octahedral::morton;
 use super::points::Points;
 
 /// A node; its points follow each other. A node's children follow it, each with its own descendants.
@@ -77,7 +76,7 @@ impl Tree {
         } else {
             let mut start = first;
             while start < last {
-                let end = split(points, first, start, last);
+                let end = split(&points.codes, first, start, last);
                 let (l, h) = self.grow(points, leaf, start, end);
                 enclose(l, h);
                 start = end;
@@ -123,9 +122,8 @@ pub(super) fn add(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 }
 
 /// Where the child that begins at point `start` ends, in the node `first..last`.
-fn split(points: &Points, first: usize, start: usize, last: usize) -> usize {
-    let code = |i: usize| morton(points.at(i));
-    let different = code(first) ^ code(last - 1);
+fn split(codes: &[u64], first: usize, start: usize, last: usize) -> usize {
+    let different = codes[first] ^ codes[last - 1];
     if different == 0 {
         // Too close together for the code. Such points are ordered by their coordinates, so halves are still slabs.
         let middle = first + (last - first) / 2;
@@ -133,11 +131,11 @@ fn split(points: &Points, first: usize, start: usize, last: usize) -> usize {
     }
     // The highest digit that differs: levels where the node would have a single child are passed over.
     let shift = (63 - different.leading_zeros()) & !1;
-    let digit = code(start) >> shift;
+    let digit = codes[start] >> shift;
     let (mut low, mut high) = (start + 1, last);
     while low < high {
         let middle = low + (high - low) / 2;
-        if code(middle) >> shift == digit { low = middle + 1 } else { high = middle }
+        if codes[middle] >> shift == digit { low = middle + 1 } else { high = middle }
     }
     low
 }

@@ -1,0 +1,70 @@
+//! What is quantised: normals, or the 24-bit colours that stand for them.
+
+use std::borrow::Cow;
+
+use crate::normal::decode_u8;
+use crate::{Grid, Normal, NormalMap, Result, Space};
+
+/// A normal map to quantise, in the form it is at hand. `&NormalMap` and `&Grid<[u8; 3]>` turn into it by themselves.
+#[derive(Debug)]
+pub enum Texels<'a, S> {
+    /// Unit vectors.
+    Normals(&'a NormalMap<S>),
+    /// 24-bit colours, read by [`decode_u8`] (+Y up). The result is that of the decoded map to the bit, in less time:
+    /// a bitmap of all 2²⁴ colours finds the distinct ones.
+    Rgb8(&'a Grid<[u8; 3]>),
+}
+
+impl<S> Clone for Texels<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S> Copy for Texels<'_, S> {}
+
+impl<'a, S> From<&'a NormalMap<S>> for Texels<'a, S> {
+    fn from(map: &'a NormalMap<S>) -> Self {
+        Self::Normals(map)
+    }
+}
+
+impl<'a, S> From<&'a Grid<[u8; 3]>> for Texels<'a, S> {
+    fn from(codes: &'a Grid<[u8; 3]>) -> Self {
+        Self::Rgb8(codes)
+    }
+}
+
+impl<'a, S: Space> Texels<'a, S> {
+    /// Width and height in texels.
+    pub(super) fn size(&self) -> (u32, u32) {
+        match self {
+            Self::Normals(map) => (map.width(), map.height()),
+            Self::Rgb8(codes) => (codes.width(), codes.height()),
+        }
+    }
+
+    /// The normal of a texel, by its number in reading order.
+    pub(super) fn normal(&self, texel: usize) -> Normal<S> {
+        match self {
+            Self::Normals(map) => map.texels()[texel],
+            Self::Rgb8(codes) => decode_u8(codes.texels()[texel]),
+        }
+    }
+
+    /// Checks that a mask or another map has the same size.
+    pub(super) fn expect_same_size<T>(&self, what: &'static str, other: &Grid<T>) -> Result<()> {
+        match self {
+            Self::Normals(map) => map.expect_same_size(what, other),
+            Self::Rgb8(codes) => codes.expect_same_size(what, other),
+        }
+    }
+
+    /// As unit vectors.
+    pub(super) fn decoded(&self) -> Cow<'a, NormalMap<S>> {
+        match self {
+            Self::Normals(map) => Cow::Borrowed(map),
+            Self::Rgb8(codes) => Cow::Owned(codes.map(|&c| decode_u8(c))),
+        }
+    }
+}
