@@ -24,9 +24,10 @@ pub(crate) fn height_map(path: &Path, depth: f32) -> Result<(HeightMap, Option<G
 }
 
 /// Reads a normal map.
-pub(crate) fn normals<S: Space>(path: &Path, convention: Convention) -> Result<NormalImage<S>> {
+pub(crate) fn normals<S: Space>(path: &Path, convention: Convention, repair: bool) -> Result<NormalImage<S>> {
     let source = open(path)?;
-    let image = rilievo_io::decode_normals(&source, convention, &Limits::default())?;
+    let decode = if repair { rilievo_io::repair_normals } else { rilievo_io::decode_normals };
+    let image = decode(&source, convention, &Limits::default())?;
     tell(&source, &image.warnings);
     Ok(image)
 }

@@ -238,11 +238,11 @@ impl ReliefArgs {
         }
         if let Some(path) = &self.normals {
             if SpaceKind::from(self.space) == SpaceKind::Object {
-                let image = inputs::normals::<Object>(path, self.convention.into())?;
+                let image = inputs::normals::<Object>(path, self.convention.into(), false)?;
                 let mesh = self.surface.load(image.normals.size())?;
                 return Ok((mesh, Source::Object { normals: image.normals, covered: image.covered }));
             }
-            let image = inputs::normals::<Tangent>(path, self.convention.into())?;
+            let image = inputs::normals::<Tangent>(path, self.convention.into(), false)?;
             let mesh = self.surface.load(image.normals.size())?.with_tangents();
             let mesh = mesh.with_context(|| self.surface.stem())?;
             if method == Method::Exact {

@@ -6,6 +6,12 @@ use anyhow::{Context, Result};
 use rilievo::measure::AngleStats;
 use serde_json::{Map, Value};
 
+/// Six digits say all that was measured; what is not finite has no number.
+fn number(value: f64) -> Value {
+    let rounded = format!("{value:.6}").parse::<f64>().unwrap_or(value);
+    serde_json::Number::from_f64(rounded).map_or(Value::Null, Value::Number)
+}
+
 /// Named results in the order they were added.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
@@ -21,9 +27,13 @@ impl Report {
 
     /// Adds an angle or another measured figure; what is not finite becomes `null` in JSON.
     pub(crate) fn add_f64(&mut self, key: &str, value: f64) -> &mut Self {
-        // Six digits say all that was measured.
-        let rounded = format!("{value:.6}").parse::<f64>().unwrap_or(value);
-        self.add(key, serde_json::Number::from_f64(rounded).map_or(Value::Null, Value::Number))
+        self.add(key, number(value))
+    }
+
+    /// Adds a list of measured figures; left out if it is empty.
+    pub(crate) fn add_f64s(&mut self, key: &str, values: impl Iterator<Item = f64>) -> &mut Self {
+        let values: Vec<Value> = values.map(number).collect();
+        if values.is_empty() { self } else { self.add(key, values) }
     }
 
     /// Adds the four error keys of normal maps, in degrees.
@@ -48,6 +58,10 @@ impl Report {
                 Value::String(text) => writeln!(out, "{key:width$}  {text}"),
                 // Infinite has no number in JSON: the PSNR of equal pictures.
                 Value::Null => writeln!(out, "{key:width$}  inf"),
+                Value::Array(list) => {
+                    let list: Vec<String> = list.iter().map(ToString::to_string).collect();
+                    writeln!(out, "{key:width$}  {}", list.join(" "))
+                }
                 other => writeln!(out, "{key:width$}  {other}"),
             }
             .context("stdout")?;

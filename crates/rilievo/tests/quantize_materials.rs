@@ -1,5 +1,7 @@
 //! How well entries are shared out among materials: against the best split that a search over splits finds.
 
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
+
 use std::collections::HashMap;
 
 use rilievo::progress::Silent;

@@ -108,7 +108,7 @@ fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
     let (filter, edges) = (args.height.filter(), args.height.edges());
     if let Some(onto) = &args.onto {
         let deflected = if args.from == InputKind::Normal {
-            let image = inputs::normals::<Tangent>(input, args.convention.into())?;
+            let image = inputs::normals::<Tangent>(input, args.convention.into(), false)?;
             let options = args.deflect.options(onto, image.normals.size())?;
             let mesh = onto.load(image.normals.size())?;
             deflect_normals(&mesh.with_tangents()?, &image.normals, image.covered.as_ref(), &options, &progress)?

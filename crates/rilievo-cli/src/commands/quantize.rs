@@ -26,10 +26,12 @@ Examples:
   rilievo quantize vase.png --space object --materials vase_materials.png -n 1024 -o vase.ktx2 --json
 
 An indexed PNG (K up to 256) shows its normals in any viewer and is relit by rewriting its palette. KTX2 holds any K,
-with all mip levels.
+with all mip levels; --no-mips leaves them out.
 
 bound_rms_deg is the least RMS error any table of K entries reaches on a uniform sphere (Fejes Toth): a map whose
-normals crowd together does better, and 1.0 x the bound is perfect only for a sphere.";
+normals crowd together does better, and 1.0 x the bound is perfect only for a sphere. zador_rms_deg is what the best
+table of K entries tends to for the density of this very map (Zador): an estimate, good for large K and smooth
+densities, and no bound. level_mean_deg are the mean errors of the smaller mip levels, against the averaged normals.";
 
 /// Quantise normal maps to an index map and a table of K normals.
 #[derive(Debug, clap::Args)]
@@ -56,6 +58,12 @@ pub(crate) struct Args {
     /// A map of material numbers (gray values or palette indices): no texel changes its material.
     #[arg(long, value_name = "MAP")]
     materials: Option<PathBuf>,
+    /// Give texels that are zero or not a number their nearest neighbour's normal, instead of refusing the map.
+    #[arg(long)]
+    repair: bool,
+    /// Write the full size only: a KTX2 has all mip levels otherwise.
+    #[arg(long)]
+    no_mips: bool,
     /// How hard to try.
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
     effort: EffortArg,
@@ -123,7 +131,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 
 fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
     let kind = FileKind::of(output, if args.max_rms.is_some() { 1 } else { args.entries })?;
-    let image = inputs::normals::<S>(input, args.convention.into())?;
+    let image = inputs::normals::<S>(input, args.convention.into(), args.repair)?;
     let materials: Option<MaterialMap> = args.materials.as_deref().map(inputs::materials).transpose()?;
     let most = if kind == FileKind::Png { PALETTE_ENTRIES } else { 65_536 };
     let options = Options {
@@ -131,7 +139,7 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
         effort: args.effort.into(),
         materials: materials.as_ref(),
         covered: image.covered.as_ref(),
-        mip_levels: kind == FileKind::Ktx2,
+        mip_levels: kind == FileKind::Ktx2 && !args.no_mips,
     };
     let started = Instant::now();
     let progress = Bars::new(input.display().to_string());
@@ -174,6 +182,8 @@ fn report<S: Space>(quantized: &Quantized<S>, output: &Path, bytes: usize, secon
         .add("entries", entries)
         .add_angles(&quantized.error)
         .add_f64("bound_rms_deg", fejes_toth_rms_rad(entries as u32).to_degrees())
+        .add_f64("zador_rms_deg", quantized.zador_rms_rad.to_degrees())
+        .add_f64s("level_mean_deg", quantized.level_errors.iter().map(|e| e.mean_rad.to_degrees()))
         .add("bytes", bytes)
         .add_f64("seconds", seconds);
     report

@@ -78,3 +78,51 @@ fn impossible_outputs_are_refused_before_work() {
     room.run("quantize n.png -n 16 -o nowhere/q.png").fails(3, &["nowhere"]);
     assert_eq!(room.files(), ["n.png"]);
 }
+
+/// A little-endian float32 array of RGB.
+fn npy(width: usize, height: usize, values: &[f32]) -> Vec<u8> {
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}, 3), }}");
+    let header = format!("{header:117}\n");
+    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    file.extend((header.len() as u16).to_le_bytes());
+    file.extend(header.as_bytes());
+    file.extend(values.iter().flat_map(|v| v.to_le_bytes()));
+    file
+}
+
+#[test]
+fn holes_are_refused_with_their_place_and_repaired_on_demand() {
+    let room = Room::new();
+    let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    let row = [x, x, [0.0; 3], z, z, [f32::NAN, 0.0, 1.0]];
+    room.write("holes.npy", &npy(6, 1, row.as_flattened()));
+    room.run("quantize holes.npy --space object -n 4 -o q.png").fails(4, &["holes.npy", "2 texels", "--repair", "2"]);
+    assert_eq!(room.files(), ["holes.npy"]);
+    let said = room.run("quantize holes.npy --space object -n 4 --repair -o q.png").ok();
+    assert!(said.stderr.contains("2 texels"), "{}", said.stderr);
+    let source = rilievo_io::Source::open(&room.path("q.png"), &Default::default()).unwrap();
+    let file = rilievo_io::decode_indexed(&source, &Default::default(), &Default::default()).unwrap();
+    let rilievo_io::AnyIndexed::Object(map) = file.map else { panic!("object space went in") };
+    let near_x: Vec<bool> = map.expand().texels().iter().map(|n| n.vec().x > 0.5).collect();
+    // Left before right, and the map repeats: the last texel has a Z on its left and an X on its right.
+    assert_eq!(near_x, [true, true, true, false, false, false]);
+    room.write("nothing.npy", &npy(2, 1, &[0.0; 6]));
+    room.run("quantize nothing.npy --repair -n 4 -o q.png").fails(4, &["nothing.npy", "not one"]);
+}
+
+#[test]
+fn levels_are_reported_and_can_be_left_out() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let all = room.run("quantize n.png -n 32 -o a.ktx2 --json").ok().json();
+    assert_eq!(all["level_mean_deg"].as_array().unwrap().len(), 6, "{all}");
+    assert!(all["level_mean_deg"][0].as_f64().unwrap() > 0.0 && all["zador_rms_deg"].as_f64().unwrap() > 0.0);
+    let one = room.run("quantize n.png -n 32 -o b.ktx2 --no-mips --json").ok().json();
+    assert!(
+        one["bytes"].as_u64().unwrap() < all["bytes"].as_u64().unwrap() && one["level_mean_deg"].is_null(),
+        "{one}"
+    );
+    assert!(
+        String::from_utf8_lossy(&room.run("quantize n.png -n 32 -o c.ktx2").ok().stdout).contains("level_mean_deg")
+    );
+}

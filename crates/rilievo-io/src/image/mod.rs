@@ -24,7 +24,7 @@ pub use self::exr::encode_normals_exr;
 pub use depth::sample_depth;
 pub use height::{HeightImage, decode_height};
 pub use materials::decode_materials;
-pub use normals::{NormalImage, decode_normals};
+pub use normals::{NormalImage, decode_normals, repair_normals};
 pub use picture::decode_picture;
 pub use png_write::{
     encode_apng, encode_gray_png8, encode_gray_png16, encode_normals_png8, encode_normals_png16, encode_picture_png,

@@ -1,6 +1,6 @@
 //! Normal maps in.
 
-use rilievo::normal::{decode_u8, decode_u16};
+use rilievo::normal::{decode_u8, decode_u16, spread_normals};
 use rilievo::quantize::Texels;
 use rilievo::{Convention, Grid, Normal, NormalMap, Space, Tangent};
 
@@ -42,6 +42,19 @@ impl<S: Space> NormalImage<S> {
 /// [`Error::Format`] for a damaged file, a gray one, or texels without direction (zero or not finite) where alpha is
 /// not zero; [`Error::Limits`]; [`Error::Unsupported`].
 pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits: &Limits) -> Result<NormalImage<S>> {
+    decode(source, convention, false, limits)
+}
+
+/// As [`decode_normals`], but texels without direction get the normal of the nearest texel that has one (the map repeats),
+/// and a warning says how many they were and where the first one is.
+///
+/// # Errors
+/// As [`decode_normals`]; [`Error::Format`] if no texel has a direction.
+pub fn repair_normals<S: Space>(source: &Source, convention: Convention, limits: &Limits) -> Result<NormalImage<S>> {
+    decode(source, convention, true, limits)
+}
+
+fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limits: &Limits) -> Result<NormalImage<S>> {
     let raster = decode_raster(source, limits)?;
     if !raster.has_color() {
         let reason = "a gray picture holds heights, not normals; make a normal map of it first";
@@ -49,7 +62,7 @@ pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits:
     }
     let covered = raster.covered();
     let inside = covered.as_ref();
-    let mut lengths = Lengths::default();
+    let (mut lengths, mut repaired) = (Lengths::default(), None);
     let normals = match raster.samples() {
         Samples::U8(v) => {
             measure(&raster, v, inside, &mut lengths, |c| f32::from(c) / 127.5 - 1.0);
@@ -60,12 +73,21 @@ pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits:
             convert(&raster, v, inside, |c| convention.apply(decode_u16(c)))
         }
         Samples::F32(v) => {
-            check_directions::<S>(source.name(), &raster, v, inside)?;
+            let without = Directionless::find::<S>(&raster, v, inside);
+            if let (Some(without), false) = (&without, repair) {
+                return Err(Error::format(source.name(), raster.place(without.first), without.reason()));
+            }
             measure(&raster, v, inside, &mut lengths, |c| c);
-            convert(&raster, v, inside, |c| convention.apply(Normal::new_or(c.into(), Normal::Z)))
+            let mut normals = convert(&raster, v, inside, |c| convention.apply(Normal::new_or(c.into(), Normal::Z)));
+            if let Some(without) = without {
+                normals = without.repair(source.name(), &raster, v, inside, normals)?;
+                repaired = Some(without.warning(&raster));
+            }
+            normals
         }
     };
-    let warnings = lengths.warnings::<S>(&raster);
+    let mut warnings = lengths.warnings::<S>(&raster);
+    warnings.extend(repaired);
     let colors = match raster.samples() {
         Samples::U8(v) if covered.is_none() => Some(raster.grid(colors(v, raster.channels(), convention))),
         _ => None,
@@ -99,22 +121,60 @@ fn convert<S: Space, T: Copy + Sync>(
     normals
 }
 
-/// Fails if a covered texel has no direction.
-fn check_directions<S: Space>(
-    name: &str,
-    raster: &Raster,
-    samples: &[f32],
-    covered: Option<&Grid<bool>>,
-) -> Result<()> {
-    let texels = samples.chunks_exact(raster.channels()).enumerate();
-    let mut bad = texels.filter(|(i, t)| {
-        covered.is_none_or(|c| c.texels()[*i]) && Normal::<S>::new([t[0], t[1], t[2]].into()).is_none()
-    });
-    let Some((first, _)) = bad.next() else { return Ok(()) };
-    let count = 1 + bad.count();
-    let reason =
-        format!("{count} texels are zero or not finite, the first one here; fill them, or set their alpha to 0");
-    Err(Error::format(name, raster.place(first), reason))
+/// Covered texels of floats that are zero or not finite.
+#[derive(Debug)]
+struct Directionless {
+    count: usize,
+    first: usize,
+}
+
+impl Directionless {
+    /// `None` if there are none.
+    fn find<S: Space>(raster: &Raster, samples: &[f32], covered: Option<&Grid<bool>>) -> Option<Self> {
+        let known = known::<S>(raster, samples);
+        let mut bad = known.enumerate().filter(|(i, known)| !known && covered.is_none_or(|c| c.texels()[*i]));
+        let (first, _) = bad.next()?;
+        Some(Self { count: 1 + bad.count(), first })
+    }
+
+    fn reason(&self) -> String {
+        let count = self.count;
+        format!(
+            "{count} texels are zero or not finite, the first one here; `quantize --repair` gives them their nearest neighbour's \
+             normal, and alpha 0 takes them out"
+        )
+    }
+
+    fn warning(&self, raster: &Raster) -> String {
+        let (count, place) = (self.count, raster.place(self.first));
+        format!(
+            "{count} texels were zero or not finite, the first one {place}; they got their nearest neighbour's normal"
+        )
+    }
+
+    /// `normals` with the holes filled.
+    fn repair<S: Space>(
+        &self,
+        name: &str,
+        raster: &Raster,
+        samples: &[f32],
+        covered: Option<&Grid<bool>>,
+        normals: Vec<Normal<S>>,
+    ) -> Result<Vec<Normal<S>>> {
+        let inside = |i: usize| covered.is_none_or(|c| c.texels()[i]);
+        let known: Vec<bool> = known::<S>(raster, samples).enumerate().map(|(i, known)| known && inside(i)).collect();
+        if !known.contains(&true) {
+            return Err(Error::format(name, "texels", "not one has a direction: there is nothing to repair them from"));
+        }
+        let mut map = raster.grid(normals);
+        spread_normals(&mut map, &raster.grid(known), u32::MAX);
+        Ok(map.into_texels())
+    }
+}
+
+/// Whether each texel has a direction.
+fn known<S: Space>(raster: &Raster, samples: &[f32]) -> impl Iterator<Item = bool> {
+    samples.chunks_exact(raster.channels()).map(|t| Normal::<S>::new([t[0], t[1], t[2]].into()).is_some())
 }
 
 /// What the lengths and signs of the stored vectors say about the file.

@@ -4,6 +4,7 @@ mod blue_noise;
 mod dither;
 mod encode;
 mod levels;
+mod spread;
 
 use std::marker::PhantomData;
 
@@ -12,6 +13,7 @@ use glam::Vec3;
 pub use dither::{DitherU8, encode_map_u8};
 pub use encode::{decode_u8, decode_u16, encode_u8, encode_u16};
 pub use levels::{NormalLevels, normal_levels};
+pub use spread::spread_normals;
 
 use crate::grid::Grid;
 

@@ -9,6 +9,7 @@ use super::Effort;
 use super::assign::{Assigner, Assignment};
 use super::coarse::coarsen;
 use super::entries::{Entries, unit};
+use super::local_search::{Search, local_search};
 use super::points::Points;
 use super::seed::seed;
 use super::split_merge::split_merge;
@@ -30,6 +31,8 @@ pub(super) struct Schedule {
     heat: f64,
     /// How far the mean is overshot.
     omega: f64,
+    /// Places that are shaken once more, on coarse points ([`local_search`]).
+    kicks: u32,
 }
 
 impl Schedule {
@@ -44,18 +47,24 @@ impl Schedule {
         };
         match effort {
             Effort::Fast => match count {
-                0..=512 => Self { density: 8, hot: 18, cool: 8, fine: 3, heat: 0.3, omega: 1.5 },
-                513..=4096 => Self { density: 8, hot: 12, cool: 4, fine: 4, heat: 0.25, omega: 1.7 },
-                _ => Self { density: 16, hot: 12, cool: 8, fine: 1, heat: 0.3, omega: 1.7 },
+                0..=512 => Self { density: 8, hot: 18, cool: 8, fine: 3, heat: 0.3, omega: 1.5, kicks: 0 },
+                513..=4096 => Self { density: 8, hot: 12, cool: 4, fine: 4, heat: 0.25, omega: 1.7, kicks: 0 },
+                _ => Self { density: 16, hot: 12, cool: 8, fine: 1, heat: 0.3, omega: 1.7, kicks: 0 },
             },
-            Effort::Normal => Self { density, hot, cool: 30, fine: 6, heat: 0.4, omega: 1.6 },
-            Effort::Best => Self { density: 2 * density, hot: 5 * hot, cool: 60, fine: 20, heat: 0.5, omega: 1.6 },
+            Effort::Normal => Self { density, hot, cool: 30, fine: 6, heat: 0.4, omega: 1.6, kicks: 0 },
+            // A kick costs a dozen steps on everything and mends one place: worth it while there are few places.
+            Effort::Best => {
+                let kicks = (60_000 / count).min(300);
+                Self { density: 2 * density, hot: 5 * hot, cool: 60, fine: 20, heat: 0.5, omega: 1.6, kicks }
+            }
         }
     }
 }
 
 /// Hot steps between two rounds of moves.
 const ROUND: u32 = 6;
+/// Steps after each kick of the local search.
+const KICK_STEPS: u32 = 14;
 
 /// A table of `count` entries for `points`.
 pub(super) fn shape(
@@ -65,8 +74,8 @@ pub(super) fn shape(
     schedule: Schedule,
     progress: &dyn Progress,
 ) -> Entries {
-    let Schedule { hot, cool, fine, heat, omega, .. } = schedule;
-    progress.begin("shaping the table", u64::from(hot + cool + fine));
+    let Schedule { hot, cool, fine, heat, omega, kicks, .. } = schedule;
+    progress.begin("shaping the table", u64::from(hot + cool + kicks + fine));
     let wanted = count.saturating_mul(schedule.density);
     // Unless it saves a good part of the work, coarseness is not worth its error.
     let coarse = (wanted < points.len() / 4 * 3).then(|| coarsen(points, tree, wanted));
@@ -83,7 +92,7 @@ pub(super) fn shape(
             split_merge(few, &found, &mut entries, count / 16 + 1);
         } else {
             let left = f64::from(hot - step) / f64::from(hot);
-            shake(&mut entries, few, &found, heat * left * left, u64::from(step));
+            shake(&mut entries, few, &found, |_| heat * left * left, u64::from(step));
         }
         progress.advance(1);
     }
@@ -91,6 +100,10 @@ pub(super) fn shape(
         let found = assigner.assign(&entries);
         approach_means(&mut entries, &found, if step + 2 < cool { omega } else { 1.0 });
         progress.advance(1);
+    }
+    if kicks > 0 {
+        let search = Search { rounds: kicks, steps: KICK_STEPS, omega };
+        entries = local_search(entries, few, &assigner, search, progress);
     }
     let assigner = Assigner::new(points, tree);
     for step in 0..fine {
@@ -102,7 +115,7 @@ pub(super) fn shape(
 }
 
 /// Moves each entry `omega` of the way to the mean of its points.
-fn approach_means(entries: &mut Entries, found: &Assignment, omega: f64) {
+pub(super) fn approach_means(entries: &mut Entries, found: &Assignment, omega: f64) {
     for (entry, &[x, y, z, _]) in entries.directions.iter_mut().zip(&found.sums) {
         let Some(mean) = unit([x, y, z]) else { continue };
         let aim = [0, 1, 2].map(|k| f64::from(entry[k]) + omega * (f64::from(mean[k]) - f64::from(entry[k])));
@@ -112,7 +125,13 @@ fn approach_means(entries: &mut Entries, found: &Assignment, omega: f64) {
 
 /// Draws each entry part of the way to a random one of its points: so the shake is as large as the cell, along the
 /// sphere, and towards where there is something.
-fn shake(entries: &mut Entries, points: &Points, found: &Assignment, part: f64, step: u64) {
+pub(super) fn shake(
+    entries: &mut Entries,
+    points: &Points,
+    found: &Assignment,
+    part: impl Fn(usize) -> f64,
+    step: u64,
+) {
     let mut drawn = vec![(0, u32::MAX); entries.len()];
     for (i, &owner) in found.owners.iter().enumerate() {
         let ticket = scramble(step << 32 | i as u64);
@@ -121,8 +140,9 @@ fn shake(entries: &mut Entries, points: &Points, found: &Assignment, part: f64, 
             *best = (ticket, i as u32);
         }
     }
-    for (entry, (_, point)) in entries.directions.iter_mut().zip(drawn) {
-        if point != u32::MAX {
+    for (index, (entry, (_, point))) in entries.directions.iter_mut().zip(drawn).enumerate() {
+        let part = part(index);
+        if point != u32::MAX && part > 0.0 {
             let p = points.at(point as usize);
             let aim = [0, 1, 2].map(|k| f64::from(entry[k]) + part * (f64::from(p[k]) - f64::from(entry[k])));
             *entry = unit(aim).unwrap_or(*entry);
@@ -131,7 +151,7 @@ fn shake(entries: &mut Entries, points: &Points, found: &Assignment, part: f64, 
 }
 
 /// A number that looks random (the output function of SplitMix64: Steele, Lea and Flood 2014).
-fn scramble(v: u64) -> u64 {
+pub(super) fn scramble(v: u64) -> u64 {
     let v = v.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let v = (v ^ (v >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let v = (v ^ (v >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -14,6 +14,7 @@ mod coarse;
 mod colors;
 mod entries;
 mod lloyd;
+mod local_search;
 mod mip;
 mod nearest;
 mod octahedral;
@@ -84,6 +85,12 @@ pub struct Quantized<S> {
     pub map: QuantizedMap<S>,
     /// Angular error over the covered texels of level 0.
     pub error: AngleStats,
+    /// Angular error of each smaller level, against the mean normals of that level ([`crate::normal::normal_levels`]) over
+    /// all of its texels; empty without [`Options::mip_levels`].
+    pub level_errors: Vec<AngleStats>,
+    /// RMS angle, in radians, that Zador's theorem lets one expect of the best table of this size for the map's own density
+    /// of normals. An estimate for large tables and smooth densities, not a bound: measured errors may lie on both sides.
+    pub zador_rms_rad: f64,
     /// Distinct (normal, material) pairs among the covered texels.
     pub distinct: usize,
 }
@@ -159,15 +166,21 @@ pub fn quantize<'a, S: Space>(
 
     let indices = if mip_levels {
         progress.begin("building mip levels", 1);
-        let chain = mip::mip_chain(&map.decoded(), base, covered, &entries, &nearest)?;
+        let levels = mip::mip_chain(&map.decoded(), base, covered, &entries, &nearest)?;
         progress.advance(1);
-        chain
+        levels
     } else {
-        MipChain::single(base)
+        mip::Levels { chain: MipChain::single(base), errors: Vec::new() }
     };
-    let quantized = QuantizedMap::new(table, indices)?;
+    let quantized = QuantizedMap::new(table, indices.chain)?;
     let error = error_of(&points, &entries, &owners);
-    Ok(Quantized { map: quantized, error, distinct: points.len() })
+    Ok(Quantized {
+        map: quantized,
+        error,
+        level_errors: indices.errors,
+        zador_rms_rad: bound::zador_rms_rad(&points, entries.len()),
+        distinct: points.len(),
+    })
 }
 
 /// The angular error over all covered texels: over the points, each as often as it occurs.

@@ -8,7 +8,6 @@
 
 mod bilinear;
 mod gradient;
-mod gutter;
 mod raster;
 
 use glam::{DVec2, DVec3};

@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
-use super::{Deflect, Deflected, gutter};
+use super::{Deflect, Deflected};
 use crate::error::{Error, Result};
 use crate::fill::{MAX_COORDINATE, Triangle};
 use crate::grid::Grid;
+use crate::normal::spread_normals;
 use crate::normal::{Normal, Object};
 use crate::par;
 use crate::progress::Progress;
@@ -112,7 +113,7 @@ pub(super) fn rasterise(
     let overlaps = texels.texels().iter().filter(|t| t.claims > 1).count() as u64;
     let covered = texels.map(|t| t.claims > 0);
     let mut normals = texels.map(|t| t.normal);
-    gutter::dilate(&mut normals, &covered, options.gutter);
+    spread_normals(&mut normals, &covered, options.gutter);
     Ok(Deflected { normals, covered, overlaps })
 }
 

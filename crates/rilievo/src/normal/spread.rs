@@ -1,18 +1,19 @@
-//! Normals spread beyond the borders of the triangles.
+//! Normals spread to texels that have none: gutters, holes.
 
 use crate::grid::Grid;
-use crate::normal::{NormalMap, Object};
+use crate::normal::{NormalMap, Space};
 use crate::par;
 
 /// No covered texel near in this column.
 const NONE: i32 = i32::MAX;
 
-/// Gives each texel that is not covered, but within `gutter` texels of one that is, the normal of the nearest.
+/// Gives each texel that is not covered, but within `gutter` texels of one that is, the normal of the nearest. The masks
+/// must have the map's size.
 ///
 /// Distances are Euclidean, and run on over the edges of the map (it repeats). Of several nearest, the one least to the
 /// side wins, then left before right, then up before down. First the nearest in each column is found, then the best of
 /// the columns beside: exact, and the cost a texel is bounded by the gutter.
-pub(super) fn dilate(normals: &mut NormalMap<Object>, covered: &Grid<bool>, gutter: u32) {
+pub fn spread_normals<S: Space>(normals: &mut NormalMap<S>, covered: &Grid<bool>, gutter: u32) {
     let (width, height) = covered.size();
     let reach = gutter.min(width.max(height)) as i32;
     if reach == 0 || covered.texels().iter().all(|&c| c) {
@@ -79,7 +80,7 @@ fn nearest_about(nearest: &[i32], x: usize, reach: i32) -> Option<(i32, i32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::normal::Normal;
+    use crate::normal::{Normal, Object};
     use glam::Vec3;
     use proptest::prelude::*;
 
@@ -92,7 +93,7 @@ mod tests {
         let (width, height) = covered.size();
         let on = |x, y| if covered[(x, y)] { label(x, y) } else { Normal::Z };
         let mut normals = Grid::from_fn(width, height, on).unwrap();
-        dilate(&mut normals, covered, gutter);
+        spread_normals(&mut normals, covered, gutter);
         normals
     }
 
