@@ -83,7 +83,6 @@ impl Curves<'_> {
 }
 
 #[test]
-#[expect(clippy::print_stdout, reason = "shows the figures that are measured here")]
 fn entries_are_shared_out_as_well_as_a_search_would() {
     let mut ratios = Vec::new();
     for seed in 0..MAPS {
