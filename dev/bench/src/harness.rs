@@ -1,6 +1,6 @@
 //! Taking times so that they can be compared.
 
-use crate::clock::cpu_seconds;
+use crate::clock::{children_seconds, cpu_seconds};
 use anyhow::Result;
 use std::hint::black_box;
 use std::time::Instant;
@@ -20,19 +20,37 @@ pub(crate) struct Duel {
 /// What a side returns is dropped after the clock has stopped, unless the work is so short that it is repeated.
 pub(crate) fn duel<A, B>(
     rounds: usize,
+    ours: impl FnMut() -> Result<A>,
+    peer: impl FnMut() -> Result<B>,
+) -> Result<Duel> {
+    duel_by(rounds, ours, peer, cpu_seconds)
+}
+
+/// As [`duel`], where the peer runs other programs: their time counts.
+pub(crate) fn duel_with_program<A, B>(
+    rounds: usize,
+    ours: impl FnMut() -> Result<A>,
+    peer: impl FnMut() -> Result<B>,
+) -> Result<Duel> {
+    duel_by(rounds, ours, peer, children_seconds)
+}
+
+fn duel_by<A, B>(
+    rounds: usize,
     mut ours: impl FnMut() -> Result<A>,
     mut peer: impl FnMut() -> Result<B>,
+    peer_clock: fn() -> f64,
 ) -> Result<Duel> {
-    let our_repeats = repeats(sample(&mut ours, 1)?);
-    let peer_repeats = repeats(sample(&mut peer, 1)?);
+    let our_repeats = repeats(sample(&mut ours, 1, cpu_seconds)?);
+    let peer_repeats = repeats(sample(&mut peer, 1, peer_clock)?);
     let (mut our_times, mut peer_times) = (Vec::with_capacity(rounds), Vec::with_capacity(rounds));
     for round in 0..rounds {
         if round % 2 == 0 {
-            our_times.push(sample(&mut ours, our_repeats)?);
-            peer_times.push(sample(&mut peer, peer_repeats)?);
+            our_times.push(sample(&mut ours, our_repeats, cpu_seconds)?);
+            peer_times.push(sample(&mut peer, peer_repeats, peer_clock)?);
         } else {
-            peer_times.push(sample(&mut peer, peer_repeats)?);
-            our_times.push(sample(&mut ours, our_repeats)?);
+            peer_times.push(sample(&mut peer, peer_repeats, peer_clock)?);
+            our_times.push(sample(&mut ours, our_repeats, cpu_seconds)?);
         }
     }
     Ok(Duel { ours: median(our_times), peer: median(peer_times) })
@@ -43,14 +61,14 @@ fn repeats(seconds: f64) -> usize {
     (SHORTEST_SAMPLE / seconds.max(1e-9)).ceil() as usize
 }
 
-/// Seconds of CPU time of one run of `work`, from `repeats` of them.
-fn sample<T>(work: &mut impl FnMut() -> Result<T>, repeats: usize) -> Result<f64> {
-    let start = cpu_seconds();
+/// Seconds by `clock` of one run of `work`, from `repeats` of them.
+fn sample<T>(work: &mut impl FnMut() -> Result<T>, repeats: usize, clock: fn() -> f64) -> Result<f64> {
+    let start = clock();
     for _ in 1..repeats {
         black_box(work()?);
     }
     let last = black_box(work()?);
-    let seconds = (cpu_seconds() - start) / repeats as f64;
+    let seconds = (clock() - start) / repeats as f64;
     drop(last);
     Ok(seconds)
 }
