@@ -10,6 +10,7 @@
 mod assign;
 mod bound;
 mod coarse;
+mod dither;
 mod entries;
 mod lloyd;
 mod mip;
@@ -26,6 +27,7 @@ mod testing;
 mod tree;
 
 pub use bound::fejes_toth_rms_rad;
+pub use dither::Dither;
 pub use search::quantize_within;
 
 use self::assign::Assigner;
@@ -64,12 +66,21 @@ pub struct Options<'a> {
     pub covered: Option<&'a Grid<bool>>,
     /// Whether to build the index maps of all mip levels.
     pub mip_levels: bool,
+    /// How the texels of the largest level choose their entries. Smaller levels always take the nearest.
+    pub dither: Dither,
 }
 
 impl Default for Options<'_> {
     /// 2048 entries, the paper's choice; normal effort, one material, all texels, one level.
     fn default() -> Self {
-        Self { entries: 2048, effort: Effort::Normal, materials: None, covered: None, mip_levels: false }
+        Self {
+            entries: 2048,
+            effort: Effort::Normal,
+            materials: None,
+            covered: None,
+            mip_levels: false,
+            dither: Dither::None,
+        }
     }
 }
 
@@ -99,7 +110,7 @@ pub struct Quantized<S> {
 /// [`Error::SizeMismatch`] if `materials` or `covered` have another size than `map`, [`Error::Missing`] if no texel is
 /// covered.
 pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &dyn Progress) -> Result<Quantized<S>> {
-    let &Options { entries: count, effort, materials, covered, mip_levels } = options;
+    let &Options { entries: count, effort, materials, covered, mip_levels, dither } = options;
     if count == 0 || count as usize > MAX_ENTRIES {
         return Err(Error::parameter("entries", count, format_args!("1 to {MAX_ENTRIES}")));
     }
@@ -144,7 +155,9 @@ pub fn quantize<S: Space>(map: &NormalMap<S>, options: &Options<'_>, progress: &
             };
         }
     });
-    let base: IndexMap = Grid::new(map.width(), map.height(), point_of.into_iter().map(|i| i as u16).collect())?;
+    let mut base: IndexMap = Grid::new(map.width(), map.height(), point_of.into_iter().map(|i| i as u16).collect())?;
+    let normal = |texel: usize| map.texels()[texel].vec().to_array();
+    dither::dither(dither, &mut base, normal, covered, &entries, &nearest);
     progress.advance(1);
 
     let indices = if mip_levels {
