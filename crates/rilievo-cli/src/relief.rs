@@ -317,6 +317,7 @@ impl ReliefArgs {
                     materials: materials.as_ref(),
                     covered: covered.as_ref(),
                     mip_levels: true,
+                    ..Options::default()
                 };
                 let started = Instant::now();
                 let quantized = quantize::quantize(&normals, &options, progress)?;

@@ -87,7 +87,7 @@ proptest! {
         covered[(width / 2, height / 2)] = true;
         let covered = gutter.then_some(&covered);
         let effort = [Effort::Fast, Effort::Normal, Effort::Best][effort];
-        let options = Options { entries, effort, materials: Some(&materials), covered, mip_levels: true };
+        let options = Options { effort, materials: Some(&materials), covered, mip_levels: true, ..with(entries) };
         let quantized = run(&map, &options);
         check(&map, &materials, covered, &quantized);
         prop_assert_eq!(quantized.map.table().len(), quantized.distinct.min(entries as usize));

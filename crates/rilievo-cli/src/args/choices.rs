@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use rilievo::height::Filter;
 use rilievo::light::LightingModel;
-use rilievo::quantize::Effort;
+use rilievo::quantize::{Dither, Effort};
 use rilievo::raster::{Method, TextureFilter};
 use rilievo::{Convention, Edges};
 use rilievo_io::SpaceKind;
@@ -75,6 +75,17 @@ choice!(
         Fast => Effort::Fast,
         Normal => Effort::Normal,
         Best => Effort::Best,
+    }
+);
+choice!(
+    /// How texels choose their entries.
+    DitherArg => Dither {
+        /// The nearest.
+        None => Dither::None,
+        /// Error diffusion: the least error over an area.
+        Diffusion => Dither::Diffusion,
+        /// A fixed mask: each texel by itself, no worms, all cores.
+        BlueNoise => Dither::BlueNoise,
     }
 );
 choice!(

@@ -9,7 +9,7 @@ use rilievo::{MaterialMap, Object, Space, Tangent};
 use rilievo_io as io;
 use rilievo_io::SpaceKind;
 
-use crate::args::{ConventionArg, EffortArg, SpaceArg};
+use crate::args::{ConventionArg, DitherArg, EffortArg, SpaceArg};
 use crate::exit::{Outcome, remark, usage, warn};
 use crate::progress::Bars;
 use crate::report::Report;
@@ -24,9 +24,13 @@ Examples:
   rilievo quantize bunny.png --space object           -> bunny_2048.ktx2
   rilievo quantize bricks_normal_gl.png --max-rms 1   -> the smallest table that is within 1 degree RMS
   rilievo quantize vase.png --space object --materials vase_materials.png -n 1024 -o vase.ktx2 --json
+  rilievo quantize bunny.png --space object -n 256 --dither diffusion    -> smooth curves instead of facets
 
 An indexed PNG (K up to 256) shows its normals in any viewer and is relit by rewriting its palette. KTX2 holds any K,
 with all mip levels; --no-mips leaves them out.
+
+--dither is for small tables: above some 2048 entries facets are hardly seen, noise is no smaller than they are, and files
+grow. Only full-size texels are dithered; smaller mip levels take their nearest entries.
 
 bound_rms_deg is the least RMS error any table of K entries reaches on a uniform sphere (Fejes Toth): a map whose
 normals crowd together does better, and 1.0 x the bound is perfect only for a sphere. zador_rms_deg is what the best
@@ -67,6 +71,9 @@ pub(crate) struct Args {
     /// How hard to try.
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
     effort: EffortArg,
+    /// Trade facets for fine noise: single texels err more (the report says how much), what an eye averages less.
+    #[arg(long, value_enum, default_value_t = DitherArg::None)]
+    dither: DitherArg,
     /// Print the report as JSON, one object per input.
     #[arg(long)]
     json: bool,
@@ -140,6 +147,7 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
         materials: materials.as_ref(),
         covered: image.covered.as_ref(),
         mip_levels: kind == FileKind::Ktx2 && !args.no_mips,
+        dither: args.dither.into(),
     };
     let started = Instant::now();
     let progress = Bars::new(input.display().to_string());

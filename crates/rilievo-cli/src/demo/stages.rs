@@ -120,6 +120,7 @@ impl<'a> Demo<'a> {
             materials: Some(&self.maps.materials),
             covered: None,
             mip_levels: false,
+            ..Options::default()
         };
         let quantized = quantize(normals, &options, bars)?;
         let indexed = io::encode_indexed_png(&quantized.map, Convention::Gl)?;
@@ -173,6 +174,7 @@ impl<'a> Demo<'a> {
                 materials: Some(&self.maps.materials),
                 covered: Some(&deflected.covered),
                 mip_levels: true,
+                ..Options::default()
             };
             let started = Instant::now();
             let quantized = quantize(&deflected.normals, &options, bars)?;

@@ -15,17 +15,17 @@ const FALLOFF: f64 = 0.800_737_402_916_808_1;
 const REACH: i64 = 9;
 
 /// Ranks 0 … AREA − 1 over a torus: any prefix of them is spread as evenly as can be.
-pub(super) struct BlueNoise(Vec<u16>);
+pub(crate) struct BlueNoise(Vec<u16>);
 
 impl BlueNoise {
     /// The mask, always the same.
-    pub(super) fn get() -> &'static Self {
+    pub(crate) fn get() -> &'static Self {
         static MASK: OnceLock<BlueNoise> = OnceLock::new();
         MASK.get_or_init(|| Self(ranks()))
     }
 
     /// The threshold at (x, y), in the open interval 0 … 1. Repeats every 64 texels.
-    pub(super) fn threshold(&self, x: usize, y: usize) -> f32 {
+    pub(crate) fn threshold(&self, x: usize, y: usize) -> f32 {
         (f32::from(self.0[y % SIDE * SIDE + x % SIDE]) + 0.5) / AREA as f32
     }
 }

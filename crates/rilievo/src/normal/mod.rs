@@ -10,6 +10,7 @@ use std::marker::PhantomData;
 
 use glam::Vec3;
 
+pub(crate) use blue_noise::BlueNoise;
 pub use dither::{DitherU8, encode_map_u8};
 pub use encode::{decode_u8, decode_u16, encode_u8, encode_u16};
 pub use levels::{NormalLevels, normal_levels};

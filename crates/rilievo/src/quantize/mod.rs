@@ -12,6 +12,7 @@ mod bound;
 mod candidates;
 mod coarse;
 mod colors;
+mod dither;
 mod entries;
 mod lloyd;
 mod local_search;
@@ -30,6 +31,7 @@ mod texels;
 mod tree;
 
 pub use bound::fejes_toth_rms_rad;
+pub use dither::Dither;
 pub use search::quantize_within;
 pub use texels::Texels;
 
@@ -39,7 +41,7 @@ use self::nearest::Nearest;
 use self::points::{Gathered, NO_POINT, Points, gather};
 use self::tree::{LEAF, Tree};
 use crate::indexed::{IndexMap, MAX_ENTRIES, MaterialMap, MaterialSpan, NormalTable, QuantizedMap};
-use crate::measure::{AngleStats, angle_of_chord, weighted_angle_stats};
+use crate::measure::{AngleStats, angle_of_chord, angle_stats, weighted_angle_stats};
 use crate::normal::encode_u16;
 use crate::{Error, Grid, MipChain, Progress, Result, Space, par};
 
@@ -69,12 +71,21 @@ pub struct Options<'a> {
     pub covered: Option<&'a Grid<bool>>,
     /// Whether to build the index maps of all mip levels.
     pub mip_levels: bool,
+    /// How the texels of the largest level choose their entries. Smaller levels always take the nearest.
+    pub dither: Dither,
 }
 
 impl Default for Options<'_> {
     /// 2048 entries, the paper's choice; normal effort, one material, all texels, one level.
     fn default() -> Self {
-        Self { entries: 2048, effort: Effort::Normal, materials: None, covered: None, mip_levels: false }
+        Self {
+            entries: 2048,
+            effort: Effort::Normal,
+            materials: None,
+            covered: None,
+            mip_levels: false,
+            dither: Dither::None,
+        }
     }
 }
 
@@ -115,7 +126,7 @@ pub fn quantize<'a, S: Space>(
     progress: &dyn Progress,
 ) -> Result<Quantized<S>> {
     let map = map.into();
-    let &Options { entries: count, effort, materials, covered, mip_levels } = options;
+    let &Options { entries: count, effort, materials, covered, mip_levels, dither } = options;
     if count == 0 || count as usize > MAX_ENTRIES {
         return Err(Error::parameter("entries", count, format_args!("1 to {MAX_ENTRIES}")));
     }
@@ -161,7 +172,9 @@ pub fn quantize<'a, S: Space>(
             };
         }
     });
-    let base: IndexMap = Grid::new(width, height, class_of.into_iter().map(|i| i as u16).collect())?;
+    let mut base: IndexMap = Grid::new(width, height, class_of.into_iter().map(|i| i as u16).collect())?;
+    let normal = |texel: usize| map.normal(texel).vec().to_array();
+    dither::dither(dither, &mut base, normal, covered, &entries, &nearest);
     progress.advance(1);
 
     let indices = if mip_levels {
@@ -173,7 +186,10 @@ pub fn quantize<'a, S: Space>(
         mip::Levels { chain: MipChain::single(base), errors: Vec::new() }
     };
     let quantized = QuantizedMap::new(table, indices.chain)?;
-    let error = error_of(&points, &entries, &owners);
+    let error = match dither {
+        Dither::None => error_of(&points, &entries, &owners),
+        _ => angle_stats(&map.decoded(), &quantized.expand(), covered)?,
+    };
     Ok(Quantized {
         map: quantized,
         error,

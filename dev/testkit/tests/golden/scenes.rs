@@ -58,7 +58,14 @@ fn bend(mesh: &Mesh, heights: Grid<f32>, depth: f32, size: (u32, u32), repeat: [
 }
 
 fn table_of(map: &Deflected, entries: u32, materials: Option<&MaterialMap>) -> QuantizedMap<ObjectSpace> {
-    let options = Options { entries, effort: Effort::Fast, materials, covered: Some(&map.covered), mip_levels: true };
+    let options = Options {
+        entries,
+        effort: Effort::Fast,
+        materials,
+        covered: Some(&map.covered),
+        mip_levels: true,
+        ..Options::default()
+    };
     quantize(&map.normals, &options, &Silent).unwrap().map
 }
 
