@@ -248,7 +248,6 @@ fn low_frequencies(error: &Grid<f64>) -> f64 {
     low / all * f64::from(side * side)
 }
 
-#[expect(clippy::print_stdout, reason = "shows the figures that are measured here")]
 #[test]
 fn noise_is_fine_and_has_no_direction() {
     let map = ball(768, 384);
