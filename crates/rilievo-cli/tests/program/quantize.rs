@@ -126,3 +126,31 @@ fn levels_are_reported_and_can_be_left_out() {
         String::from_utf8_lossy(&room.run("quantize n.png -n 32 -o c.ktx2").ok().stdout).contains("level_mean_deg")
     );
 }
+
+#[test]
+fn dithering_changes_pixels_and_not_the_table() {
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let run = |dither: &str, more: &str| {
+        let said =
+            room.run(&format!("quantize n.png -n 16 --json --dither {dither} -o {dither}.png {more}")).ok().json();
+        let source = rilievo_io::Source::open(&room.path(&format!("{dither}.png")), &Default::default()).unwrap();
+        let file = rilievo_io::decode_indexed(&source, &Default::default(), &Default::default()).unwrap();
+        let rilievo_io::AnyIndexed::Tangent(map) = file.map else { panic!("tangent space went in") };
+        (said["rms_deg"].as_f64().unwrap(), map)
+    };
+    let (least, plain) = run("none", "");
+    room.run("quantize n.png -n 16 -o default.png").ok();
+    assert_eq!(room.read("none.png"), room.read("default.png"));
+    for dither in ["diffusion", "blue-noise"] {
+        let (rms, map) = run(dither, "--threads 1");
+        assert!(rms > least && map.table() == plain.table() && map.base() != plain.base(), "{dither}: {rms} {least}");
+        // What the report says is what the file holds.
+        let seen = room.run(&format!("compare n.png {dither}.png --as normals --json")).ok().json();
+        assert!((seen["rms_deg"].as_f64().unwrap() - rms).abs() < 1e-4, "{dither}: {rms} {seen}");
+        let bytes = room.read(&format!("{dither}.png"));
+        run(dither, "--threads 2");
+        assert_eq!(room.read(&format!("{dither}.png")), bytes);
+    }
+    room.run("quantize n.png --dither ordered").fails(2, &["blue-noise", "diffusion"]);
+}

@@ -71,7 +71,8 @@ pub struct Options<'a> {
     pub covered: Option<&'a Grid<bool>>,
     /// Whether to build the index maps of all mip levels.
     pub mip_levels: bool,
-    /// How the texels of the largest level choose their entries. Smaller levels always take the nearest.
+    /// How the texels of the largest level choose their entries. Smaller levels take the nearest: their normals are
+    /// means already, and noise in them would flicker as levels change.
     pub dither: Dither,
 }
 
@@ -94,7 +95,7 @@ impl Default for Options<'_> {
 pub struct Quantized<S> {
     /// The map.
     pub map: QuantizedMap<S>,
-    /// Angular error over the covered texels of level 0.
+    /// Angular error over the covered texels of level 0, as they are: dithered ones with the entries they got.
     pub error: AngleStats,
     /// Angular error of each smaller level, against the mean normals of that level ([`crate::normal::normal_levels`]) over
     /// all of its texels; empty without [`Options::mip_levels`].
@@ -109,8 +110,8 @@ pub struct Quantized<S> {
 /// Quantises `map` to a table of `options.entries` normals. The map may be one of normals or of 24-bit colours.
 ///
 /// Every entry is a unit normal that 16 bits per component hold exactly, and every texel has the entry of its material
-/// that is nearest to it (of equally near ones, the first). Entries are sorted by material, and within a material along
-/// a Hilbert curve over the sphere.
+/// that is nearest to it (of equally near ones, the first) unless it is dithered. Entries are sorted by material, and
+/// within a material along a Hilbert curve over the sphere.
 ///
 /// - **Space:** that of `map`; nothing here depends on it.
 /// - **Memory:** up to 20 bytes per texel beside the map while it works, and some 40 per distinct normal.

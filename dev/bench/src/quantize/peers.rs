@@ -1,7 +1,7 @@
 //! Other people's quantisers, run as their users run them: whole processes on files, one thread each.
 //!
-//! They are made for colours; a normal map is a picture to them. faiss gets the distinct directions with no weights, which is
-//! how its k-means is used. A peer that is not installed is told and left out.
+//! They are made for colours; a normal map is a picture to them. faiss gets the distinct directions with their weights.
+//! A peer that is not installed is told and left out.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,13 +65,13 @@ data = open(sys.argv[1], 'rb').read()
 w, h = map(int, data.split(b'\\n', 2)[1].split())
 px = np.frombuffer(data[-w * h * 3:], dtype=np.uint8).reshape(-1, 3)
 codes = px.astype(np.uint32) @ np.array([65536, 256, 1], dtype=np.uint32)
-distinct, where = np.unique(codes, return_inverse=True)
+distinct, where, counts = np.unique(codes, return_inverse=True, return_counts=True)
 rgb = np.stack([distinct >> 16, distinct >> 8 & 255, distinct & 255], axis=1)
 n = rgb.astype(np.float32) * 2 - 255
 n /= np.linalg.norm(n, axis=1, keepdims=True)
 k = int(sys.argv[3])
 km = faiss.Kmeans(3, k, niter=20, spherical=True, seed=1, max_points_per_centroid=10**9, min_points_per_centroid=1)
-km.train(np.ascontiguousarray(n))
+km.train(np.ascontiguousarray(n), weights=counts.astype(np.float32))
 _, who = km.index.search(np.ascontiguousarray(n), 1)
 km.centroids.reshape(k, 3)[who[where.ravel(), 0]].astype('<f4').tofile(sys.argv[2])
 ";

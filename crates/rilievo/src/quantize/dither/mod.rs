@@ -13,6 +13,15 @@ use super::nearest::Nearest;
 use crate::{Grid, IndexMap};
 
 /// How texels choose their entries.
+///
+/// - **Accuracy:** errors of single texels grow (the bunny's with 256 entries from 4.20° RMS to 5.78° by diffusion and
+///   6.21° by blue noise), as entries farther than the nearest are taken too. After a low-pass of σ = 1 texel they fall
+///   to 0.25 × and 0.39 × of those without; with 2048 entries to 0.40 × and 0.75 ×. Both held by
+///   `tests/quantize_dither.rs`. Normals beyond the outermost entries stay wrong: nothing averages to them.
+/// - **Materials, gutter:** a texel never changes material. Texels that are not covered keep their nearest entries,
+///   and no error crosses a border of a material or of gutter.
+/// - **Size:** noise does not pack well. The bunny's files grow 3 times with 256 entries, 1.5 times with 2048.
+/// - **Determinism:** class A, on any number of threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Dither {
     /// The nearest entry: the least error of each texel by itself.
