@@ -1,5 +1,4 @@
 //! What dithering is for: normals averaged over a few texels come out right; and what it must leave alone.
-#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use std::f32::consts::{PI, TAU};
 use std::fs::File;
