@@ -6,7 +6,7 @@ use anyhow::Result;
 use rilievo::color::Picture;
 use rilievo::height::HeightMap;
 use rilievo::{Convention, Grid, MaterialMap, Space};
-use rilievo_io::{AnyIndexed, ImportAs, IndexedFile, Limits, NormalImage, Source};
+use rilievo_io::{AnyIndexed, EmbeddedMaterials, ImportAs, IndexedFile, Limits, NormalImage, Source};
 
 use crate::exit;
 
@@ -30,6 +30,15 @@ pub(crate) fn normals<S: Space>(path: &Path, convention: Convention, repair: boo
     let image = decode(&source, convention, &Limits::default())?;
     tell(&source, &image.warnings);
     Ok(image)
+}
+
+/// Reads a normal map that holds its materials.
+pub(crate) fn normals_with_materials<S: Space>(
+    path: &Path,
+    convention: Convention,
+    embedded: EmbeddedMaterials,
+) -> Result<(NormalImage<S>, MaterialMap)> {
+    Ok(rilievo_io::decode_normals_with_materials(&open(path)?, convention, embedded, &Limits::default())?)
 }
 
 /// Reads normals from anything that holds them: a normal map, or an index map, whose exact table is then used.

@@ -301,3 +301,44 @@ fn tiff_of_all_depths_are_read() {
         }
     }
 }
+
+/// An 8-bit PNG of the given colours, one row.
+fn png8(color: png::ColorType, texels: &[u8], width: u32) -> Source {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, 1);
+    encoder.set_color(color);
+    encoder.write_header().unwrap().write_image_data(texels).unwrap();
+    source(bytes)
+}
+
+#[test]
+fn materials_are_read_from_alpha_and_from_sub_cubes() {
+    let limits = Limits::default();
+    let read = |source: &Source, place| decode_normals_with_materials::<Object>(source, Convention::Gl, place, &limits);
+    let rgba = png8(png::ColorType::Rgba, &[255, 128, 128, 0, 128, 128, 255, 9], 2);
+    let (image, materials) = read(&rgba, EmbeddedMaterials::Alpha).unwrap();
+    assert_eq!(materials.texels(), [0, 9]);
+    assert!(image.covered.is_none() && image.normals[(0, 0)].vec().x > 0.99 && image.normals[(1, 0)].vec().z > 0.99);
+    let message = read(&png8(png::ColorType::Rgb, &[1, 2, 3], 1), EmbeddedMaterials::Alpha).unwrap_err().to_string();
+    assert!(message.contains("no alpha"), "{message}");
+
+    // Every direction, in every one of the four sub-cubes, comes back within half a step of 7 bits.
+    for material in 0..4u8 {
+        let (r, g) = (material >> 1, material & 1);
+        let top = [r, g, r ^ g].map(|bit| bit << 7);
+        let wanted = uniform_sphere::<Object>(500, u64::from(material));
+        let encode = |n: &Normal<Object>| {
+            let v = n.vec().to_array();
+            [0, 1, 2].map(|k| top[k] | ((v[k] + 1.0) / 2.0 * 127.0 + 0.5) as u8)
+        };
+        let texels: Vec<u8> = wanted.iter().flat_map(encode).collect();
+        let (image, materials) = read(&png8(png::ColorType::Rgb, &texels, 500), EmbeddedMaterials::SubCubes).unwrap();
+        assert!(materials.texels().iter().all(|&m| m == material));
+        let worst = image.normals.texels().iter().zip(&wanted).map(|(a, b)| a.angle_to(*b)).fold(0.0, f64::max);
+        assert!(worst < 3f64.sqrt() / 127.0, "{worst}");
+    }
+    let message = read(&png8(png::ColorType::Rgb, &[0, 0, 0, 128, 0, 0], 2), EmbeddedMaterials::SubCubes)
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("(1, 0)") && message.contains("sub-cube"), "{message}");
+}

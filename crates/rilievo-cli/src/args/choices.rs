@@ -6,7 +6,7 @@ use rilievo::light::LightingModel;
 use rilievo::quantize::{Dither, Effort};
 use rilievo::raster::{Method, TextureFilter};
 use rilievo::{Convention, Edges};
-use rilievo_io::SpaceKind;
+use rilievo_io::{EmbeddedMaterials, SpaceKind};
 
 /// Declares a command-line choice and what it stands for in the library.
 macro_rules! choice {
@@ -75,6 +75,15 @@ choice!(
         Fast => Effort::Fast,
         Normal => Effort::Normal,
         Best => Effort::Best,
+    }
+);
+choice!(
+    /// Where a normal map's colours hold materials.
+    MaterialsInArg => EmbeddedMaterials {
+        /// Alpha is the number of the material.
+        Alpha => EmbeddedMaterials::Alpha,
+        /// The top bits of red and green are the number; blue's top bit makes their sum even.
+        SubCubes => EmbeddedMaterials::SubCubes,
     }
 );
 choice!(

@@ -7,7 +7,8 @@ mod maps;
 mod values;
 
 pub(crate) use choices::{
-    Bits, ConventionArg, DitherArg, EdgesArg, EffortArg, FilterArg, MethodArg, ModelArg, SamplingArg, SpaceArg,
+    Bits, ConventionArg, DitherArg, EdgesArg, EffortArg, FilterArg, MaterialsInArg, MethodArg, ModelArg, SamplingArg,
+    SpaceArg,
 };
 pub(crate) use given::Given;
 pub(crate) use light::{LightArgs, MaterialArgs};

@@ -9,7 +9,7 @@ use rilievo::{MaterialMap, Object, Space, Tangent};
 use rilievo_io as io;
 use rilievo_io::SpaceKind;
 
-use crate::args::{ConventionArg, DitherArg, EffortArg, SpaceArg};
+use crate::args::{ConventionArg, DitherArg, EffortArg, MaterialsInArg, SpaceArg};
 use crate::exit::{Outcome, remark, usage, warn};
 use crate::progress::Bars;
 use crate::report::Report;
@@ -63,6 +63,9 @@ pub(crate) struct Args {
     /// A map of material numbers (gray values or palette indices): no texel changes its material.
     #[arg(long, value_name = "MAP")]
     materials: Option<PathBuf>,
+    /// The materials stand in the normal map's own colours: in alpha, or in four sub-cubes of the colour cube.
+    #[arg(long, value_enum, value_name = "WHERE", conflicts_with_all = ["materials", "repair"])]
+    materials_in: Option<MaterialsInArg>,
     /// Give texels that are zero or not a number their nearest neighbour's normal, instead of refusing the map.
     #[arg(long)]
     repair: bool,
@@ -139,8 +142,16 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 
 fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
     let kind = FileKind::of(output, if args.max_rms.is_some() { 1 } else { args.entries })?;
-    let image = inputs::normals::<S>(input, args.convention.into(), args.repair)?;
-    let materials: Option<MaterialMap> = args.materials.as_deref().map(inputs::materials).transpose()?;
+    let (image, materials): (_, Option<MaterialMap>) = match args.materials_in {
+        Some(place) => {
+            let (image, materials) = inputs::normals_with_materials::<S>(input, args.convention.into(), place.into())?;
+            (image, Some(materials))
+        }
+        None => {
+            let image = inputs::normals::<S>(input, args.convention.into(), args.repair)?;
+            (image, args.materials.as_deref().map(inputs::materials).transpose()?)
+        }
+    };
     let most = if kind == FileKind::Png { PALETTE_ENTRIES } else { 65_536 };
     let options = Options {
         entries: args.max_rms.map_or(args.entries, |_| most),

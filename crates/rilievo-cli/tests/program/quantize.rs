@@ -154,3 +154,23 @@ fn dithering_changes_pixels_and_not_the_table() {
     }
     room.run("quantize n.png --dither ordered").fails(2, &["blue-noise", "diffusion"]);
 }
+
+#[test]
+fn materials_can_come_from_the_colours() {
+    let room = Room::new();
+    // Two materials in the sub-cubes 000 and 110.
+    let color = |x: u32, _: u32| if x < 3 { [64, 64, 127] } else { [192, 192, 127] };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 6, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    let texels: Vec<u8> = (0..12u32).flat_map(|i| color(i % 6, i / 6)).collect();
+    encoder.write_header().unwrap().write_image_data(&texels).unwrap();
+    room.write("n.png", &bytes);
+    room.run("quantize n.png --materials-in sub-cubes -n 8 -o q.png").ok();
+    let source = rilievo_io::Source::open(&room.path("q.png"), &Default::default()).unwrap();
+    let file = rilievo_io::decode_indexed(&source, &Default::default(), &Default::default()).unwrap();
+    let rilievo_io::AnyIndexed::Tangent(map) = file.map else { panic!("tangent space went in") };
+    assert_eq!(map.expand_materials().row(0), [0, 0, 0, 3, 3, 3]);
+    assert!(map.expand().texels().iter().all(|n| n.vec().z > 0.99));
+    room.run("quantize n.png --materials-in alpha -n 8 -o q.png").fails(4, &["n.png", "alpha"]);
+}

@@ -8,6 +8,7 @@
 //! 16 bytes a texel for four floats), once more while they are unpacked, plus the result (12 bytes a texel for normals).
 
 mod depth;
+mod embedded;
 mod exr;
 mod height;
 mod jpeg;
@@ -22,6 +23,7 @@ mod tiff;
 
 pub use self::exr::encode_normals_exr;
 pub use depth::sample_depth;
+pub use embedded::{EmbeddedMaterials, decode_normals_with_materials};
 pub use height::{HeightImage, decode_height};
 pub use materials::decode_materials;
 pub use normals::{NormalImage, decode_normals, repair_normals};
