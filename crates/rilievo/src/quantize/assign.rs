@@ -2,7 +2,8 @@
 //!
 //! Filtering down the quadtree (after Kanungo et al. 2002, "An efficient k-means clustering algorithm"): a node keeps
 //! the candidates that may be nearest to something inside its ball. Mostly one is left long before the leaves, and the
-//! whole node is done at once. No point's answer is approximate: see [`Assigner::assign_exact`].
+//! whole node is done at once. Near the root, where candidates are many, they are balls around several entries each
+//! ([`Blocks`]). No point's answer is approximate: see [`Assigner::assign_exact`].
 //!
 //! The loops work on [`LANES`] values side by side and are compiled once for every instruction set, chosen at run time.
 //! None of them fuses or reorders an operation, so the set is not in the result.
@@ -11,16 +12,19 @@ use std::ops::Range;
 
 use fearless_simd::{Level, Simd, dispatch};
 
+use super::blocks::Blocks;
 use super::candidates::{Candidates, TINY};
 use super::entries::{Entries, squared_f64};
 use super::points::{LANES, Points};
 use super::tree::{SLACK, Tree, add};
 use crate::par;
 
-/// Into how many tasks of equal size work is cut, about. Fixed, so that sums are the same for any thread count.
+/// Into how many tasks work is cut at least, about. Fixed, so that sums are the same for any thread count.
 const TASKS: usize = 16;
-/// A task is not cut below so many points.
-const SMALL_TASK: usize = 2048;
+/// A task should be as many points as belong to so many entries ...
+const TASK_ENTRIES: usize = 64;
+/// ... but not be cut below so many points.
+const SMALL_TASK: usize = 1024;
 
 /// The outcome for all points.
 #[derive(Debug, Default, Clone, PartialEq)]
@@ -36,29 +40,20 @@ pub(super) struct Assignment {
 pub(super) struct Assigner<'a> {
     points: &'a Points,
     tree: &'a Tree,
-    /// Node and group; together they hold every point once, in order.
-    tasks: Vec<(u32, usize)>,
     level: Level,
+}
+
+/// A node whose points are assigned by themselves.
+struct Task {
+    node: u32,
+    group: usize,
+    /// The blocks of entries that may matter to it.
+    blocks: Vec<u32>,
 }
 
 impl<'a> Assigner<'a> {
     pub(super) fn new(points: &'a Points, tree: &'a Tree) -> Self {
-        let small = SMALL_TASK.max(points.len() / TASKS);
-        let mut tasks = Vec::new();
-        for (group, &root) in tree.roots.iter().enumerate() {
-            let mut open = vec![root];
-            while let Some(node) = open.pop() {
-                let n = &tree.nodes[node as usize];
-                if (n.last - n.first) as usize > small && n.end > node + 1 {
-                    let at = open.len();
-                    open.extend(tree.children(node));
-                    open[at..].reverse();
-                } else {
-                    tasks.push((node, group));
-                }
-            }
-        }
-        Self { points, tree, tasks, level: Level::new() }
+        Self { points, tree, level: Level::new() }
     }
 
     /// Nearest in f32 arithmetic: all that shaping a table needs.
@@ -72,14 +67,20 @@ impl<'a> Assigner<'a> {
     }
 
     fn run<const EXACT: bool>(&self, entries: &Entries) -> Assignment {
-        let of_group =
-            |span: &Range<usize>| Candidates::new(span.clone().map(|e| entries.directions[e]).zip(span.start as u32..));
-        let groups: Vec<Candidates> = entries.spans.iter().map(of_group).collect();
-        let done = par::map_range(self.tasks.len(), |task| {
-            let (node, group) = self.tasks[task];
+        let groups: Vec<Blocks> =
+            entries.spans.iter().map(|span| Blocks::new(&entries.directions, span.clone())).collect();
+        let most = SMALL_TASK.max(self.points.len() / TASKS);
+        let small = (TASK_ENTRIES * self.points.len() / entries.len().max(1)).clamp(SMALL_TASK, most);
+        let mut tasks = Vec::new();
+        for (group, blocks) in groups.iter().enumerate() {
+            self.cut(self.tree.roots[group], group, blocks, &blocks.all(), small, &mut tasks);
+        }
+        let done = par::map_range(tasks.len(), |task| {
+            let task = &tasks[task];
             dispatch!(self.level, simd => {
-                let mut search = Search::<EXACT>::new(simd, self.points, self.tree, &groups[group], node);
-                search.descend(simd, node);
+                let candidates = groups[task.group].candidates(&task.blocks);
+                let mut search = Search::<EXACT>::new(simd, self.points, self.tree, candidates, task.node);
+                search.descend(simd, task.node);
                 (search.ids, search.sums, search.owners)
             })
         });
@@ -92,6 +93,17 @@ impl<'a> Assigner<'a> {
             all.owners.extend(owners);
         }
         all
+    }
+
+    /// Cuts a node into tasks of at most `small` points, in order. `list` are the blocks that matter to its parent.
+    fn cut(&self, node: u32, group: usize, blocks: &Blocks, list: &[u32], small: usize, tasks: &mut Vec<Task>) {
+        let n = &self.tree.nodes[node as usize];
+        let near = blocks.near(list, n.center, n.radius);
+        if (n.last - n.first) as usize <= small || n.end == node + 1 {
+            tasks.push(Task { node, group, blocks: near });
+        } else {
+            self.tree.children(node).for_each(|child| self.cut(child, group, blocks, &near, small, tasks));
+        }
     }
 }
 
@@ -111,12 +123,11 @@ struct Search<'a, const EXACT: bool> {
 }
 
 impl<'a, const EXACT: bool> Search<'a, EXACT> {
-    /// `all` are the entries of the task's group, numbered as in the table.
+    /// `stack` has one list: the entries to choose from, numbered as in the table.
     #[inline(always)]
-    fn new<S: Simd>(_simd: S, points: &'a Points, tree: &'a Tree, all: &Candidates, node: u32) -> Self {
+    fn new<S: Simd>(_simd: S, points: &'a Points, tree: &'a Tree, mut stack: Candidates, node: u32) -> Self {
         let n = &tree.nodes[node as usize];
-        let mut stack = all.clone();
-        let near = stack.filter(all.all(), n.center, n.radius);
+        let near = stack.filter(stack.all(), n.center, n.radius);
         let ids: Vec<u32> = stack.iter(near.clone()).map(|(id, _)| id).collect();
         Self {
             points,

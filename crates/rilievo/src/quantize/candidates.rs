@@ -10,18 +10,25 @@ pub(super) const TINY: f32 = 1e-15;
 /// Coordinate of padding: farther than anything on the sphere, and its square is still finite.
 const FAR: f32 = 1e9;
 
+/// A candidate: x, y, z, and the bits of its number. One store moves it.
+pub(super) type Record = [f32; 4];
+
+/// The record of an entry.
+pub(super) fn record([x, y, z]: [f32; 3], id: u32) -> Record {
+    [x, y, z, f32::from_bits(id)]
+}
+
 /// A stack of lists of candidates. Every list is followed by [`LANES`] entries that are too far to matter, so that loops
 /// over lanes need no end of their own.
 #[derive(Debug, Clone)]
 pub(super) struct Candidates {
-    /// x, y, z, and the bits of the number: one store moves a candidate.
-    list: Vec<[f32; 4]>,
+    list: Vec<Record>,
     /// Squared distances, while a list is filtered.
     distances: Vec<[f32; LANES]>,
 }
 
 /// Padding.
-const NOBODY: [f32; 4] = [FAR, FAR, FAR, 0.0];
+const NOBODY: Record = [FAR, FAR, FAR, 0.0];
 
 /// The squared distance from a ball's centre beyond which nothing is nearest to any of its points, if the candidate
 /// nearest to the centre is at the squared distance `nearest`.
@@ -34,7 +41,16 @@ fn reach(nearest: f32, radius: f32) -> f32 {
 impl Candidates {
     /// The first list: directions with their numbers.
     pub(super) fn new(list: impl Iterator<Item = ([f32; 3], u32)>) -> Self {
-        let mut list: Vec<_> = list.map(|([x, y, z], id)| [x, y, z, f32::from_bits(id)]).collect();
+        let mut list: Vec<_> = list.map(|(direction, id)| record(direction, id)).collect();
+        list.extend([NOBODY; LANES]);
+        Self { list, distances: Vec::new() }
+    }
+
+    /// The same of runs of records.
+    pub(super) fn joined<'a>(runs: impl ExactSizeIterator<Item = &'a [Record]>) -> Self {
+        // Room for the first two lists made of this one.
+        let mut list = Vec::with_capacity((3 * runs.len() + 8) * LANES);
+        runs.for_each(|run| list.extend_from_slice(run));
         list.extend([NOBODY; LANES]);
         Self { list, distances: Vec::new() }
     }

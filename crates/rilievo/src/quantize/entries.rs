@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::octahedral::morton;
+
 /// Entries by group of points (see [`super::points::Group`]): group g owns `directions[spans[g]]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Entries {
@@ -19,6 +21,13 @@ impl Entries {
             all.spans.push(first..all.directions.len());
         }
         all
+    }
+
+    /// Puts the entries of each group in Morton order, which is what makes blocks of them small.
+    pub(super) fn sort(&mut self) {
+        for span in &self.spans {
+            self.directions[span.clone()].sort_by_cached_key(|&direction| morton(direction));
+        }
     }
 
     /// How many there are.

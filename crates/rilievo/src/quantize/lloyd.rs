@@ -83,6 +83,7 @@ pub(super) fn shape(
     let (few, few_tree) = (coarse.as_ref().unwrap_or(points), coarse_tree.as_ref().unwrap_or(tree));
 
     let mut entries = seed(few, count);
+    entries.sort();
     let assigner = Assigner::new(few, few_tree);
     for step in 0..hot {
         let found = assigner.assign(&entries);
@@ -90,6 +91,7 @@ pub(super) fn shape(
         approach_means(&mut entries, &found, if moving { 1.0 } else { omega });
         if moving {
             split_merge(few, &found, &mut entries, count / 16 + 1);
+            entries.sort();
         } else {
             let left = f64::from(hot - step) / f64::from(hot);
             shake(&mut entries, few, &found, |_| heat * left * left, u64::from(step));

@@ -8,6 +8,7 @@
 //!   do not depend on the machine, and only + − × ÷ √ in a fixed order decide anything.
 
 mod assign;
+mod blocks;
 mod bound;
 mod candidates;
 mod coarse;
