@@ -70,9 +70,29 @@ pub(super) fn zador_rms_rad(points: &Points, entries: usize) -> f64 {
 /// the (hemi)sphere using SIMD").
 fn equal_area([x, y, z]: [f64; 3]) -> [f64; 2] {
     let radius = (1.0 - z.abs()).max(0.0).sqrt();
-    let v = y.abs().atan2(x.abs()) * FRAC_2_PI * radius;
+    let v = quarter_turns(y.abs(), x.abs()) * radius;
     let (u, v) = if z < 0.0 { (1.0 - v, 1.0 - (radius - v)) } else { (radius - v, v) };
     [(u.copysign(x) + 1.0) * 0.5, (v.copysign(y) + 1.0) * 0.5]
+}
+
+/// The angle of a point of the first quadrant, in quarter turns, within 2·10⁻⁸ (Abramowitz and Stegun 1964, 4.4.49). In plain
+/// arithmetic: several times faster than the library's, and the same everywhere.
+fn quarter_turns(y: f64, x: f64) -> f64 {
+    const EVEN: [f64; 9] = [
+        1.0,
+        -0.333_331_452_8,
+        0.199_935_508_5,
+        -0.142_088_994_4,
+        0.106_562_639_3,
+        -0.075_289_640_0,
+        0.042_909_613_8,
+        -0.016_165_736_7,
+        0.002_866_225_7,
+    ];
+    let tangent = x.min(y) / x.max(y).max(f64::MIN_POSITIVE);
+    let t2 = tangent * tangent;
+    let turn = EVEN.iter().rev().fold(0.0, |sum, c| sum * t2 + c) * tangent * FRAC_2_PI;
+    if y > x { 1.0 - turn } else { turn }
 }
 
 /// The mean over the sphere of the function whose integral ∫₀^θ f(t) sin t dt is `inner`, by triangles as above.
@@ -97,6 +117,16 @@ fn simpson(end: f64, f: impl Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn quarter_turns_are_those_of_the_library() {
+        for i in 0..=1000 {
+            let (y, x) = (f64::from(i) * 0.002).sin_cos();
+            let (y, x) = (y.abs(), x.abs());
+            assert!((quarter_turns(y, x) - y.atan2(x) * FRAC_2_PI).abs() < 2e-8, "{i}");
+        }
+        assert_eq!(quarter_turns(0.0, 0.0), 0.0);
+    }
 
     #[test]
     fn bound_is_as_published() {

@@ -6,8 +6,8 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
-use super::octahedral::morton;
 use super::points::Points;
 use super::tree::Tree;
 
@@ -38,14 +38,25 @@ impl PartialEq for Divisible {
 
 impl Eq for Divisible {}
 
+/// Points that stand for others.
+#[derive(Debug)]
+pub(super) struct Coarse {
+    pub points: Points,
+    /// The points that each stands for.
+    pub stands_for: Vec<Range<u32>>,
+}
+
+/// A point, its weight, and those that it stands for.
+type Weighted = ([f32; 3], f32, Range<u32>);
+
 /// At least `count` points (or as many as there are) that stand for all, with balanced spread.
-pub(super) fn coarsen(points: &Points, tree: &Tree, count: usize) -> Points {
+pub(super) fn coarsen(points: &Points, tree: &Tree, count: usize) -> Coarse {
     let divisible = |node: u32, group: usize| {
         let n = &tree.nodes[node as usize];
         Divisible { spread: n.moment[3] * f64::from(n.radius) * f64::from(n.radius), node, group }
     };
     let mut whole: BinaryHeap<_> = tree.roots.iter().enumerate().map(|(group, &root)| divisible(root, group)).collect();
-    let mut groups: Vec<Vec<([f32; 3], f32)>> = vec![Vec::new(); tree.roots.len()];
+    let mut groups: Vec<Vec<Weighted>> = vec![Vec::new(); tree.roots.len()];
     let mut single = 0;
     while whole.len() + single < count {
         let Some(Divisible { node, group, .. }) = whole.pop() else { break };
@@ -53,19 +64,32 @@ pub(super) fn coarsen(points: &Points, tree: &Tree, count: usize) -> Points {
         whole.extend(tree.children(node).map(|child| divisible(child, group)));
         if whole.len() == before {
             let n = &tree.nodes[node as usize];
-            groups[group].extend((n.first as usize..n.last as usize).map(|i| (points.at(i), points.weight[i])));
+            groups[group].extend(
+                (n.first as usize..n.last as usize).map(|i| (points.at(i), points.weight[i], i as u32..i as u32 + 1)),
+            );
             single += (n.last - n.first) as usize;
         }
     }
     for Divisible { node, group, .. } in whole.into_sorted_vec() {
-        let [x, y, z, weight] = tree.nodes[node as usize].moment;
-        groups[group].push(([x, y, z].map(|c| (c / weight) as f32), weight as f32));
+        let n = &tree.nodes[node as usize];
+        let [x, y, z, weight] = n.moment;
+        groups[group].push(([x, y, z].map(|c| (c / weight) as f32), weight as f32, n.first..n.last));
     }
     for group in &mut groups {
-        // A stable sort: points of equal code stay as they came.
-        group.sort_by_cached_key(|&(mean, _)| morton(mean));
+        group.sort_unstable_by_key(|(.., stands_for)| stands_for.start);
     }
-    Points::new(points.groups.iter().map(|g| g.material).zip(groups))
+    let stands_for = groups.iter().flatten().map(|(.., stands_for)| stands_for.clone()).collect();
+    let weighted = |group: Vec<Weighted>| group.into_iter().map(|(mean, weight, _)| (mean, weight)).collect();
+    let materials = points.groups.iter().map(|g| g.material);
+    Coarse { points: Points::new(materials.zip(groups.into_iter().map(weighted))), stands_for }
+}
+
+impl Coarse {
+    /// What a value for each coarse point is for each point.
+    pub(super) fn refine(&self, coarse: &[u32]) -> Vec<u32> {
+        let ranges = self.stands_for.iter().zip(coarse);
+        ranges.flat_map(|(range, &value)| std::iter::repeat_n(value, range.len())).collect()
+    }
 }
 
 #[cfg(test)]
@@ -78,7 +102,9 @@ mod tests {
         let points = scattered(5000, 2);
         let tree = Tree::build(&points, 8);
         for count in [1, 2, 100, 3000, 1_000_000] {
-            let coarse = coarsen(&points, &tree, count);
+            let Coarse { points: coarse, stands_for } = coarsen(&points, &tree, count);
+            let all: Vec<u32> = stands_for.iter().flat_map(Clone::clone).collect();
+            assert!(all.iter().copied().eq(0..points.len() as u32));
             assert!(coarse.len() >= count.min(points.len()) && coarse.len() <= points.len());
             for (group, &root) in tree.roots.iter().enumerate() {
                 let mut moment = [0.0; 4];

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use super::octahedral::morton;
-
 /// Entries by group of points (see [`super::points::Group`]): group g owns `directions[spans[g]]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Entries {
@@ -23,11 +21,10 @@ impl Entries {
         all
     }
 
-    /// Puts the entries of each group in Morton order, which is what makes blocks of them small.
-    pub(super) fn sort(&mut self) {
-        for span in &self.spans {
-            self.directions[span.clone()].sort_by_cached_key(|&direction| morton(direction));
-        }
+    /// The group (material) of each entry.
+    pub(super) fn groups(&self) -> Vec<u8> {
+        let group = |(span, group): (&Range<usize>, u8)| span.clone().map(move |_| group);
+        self.spans.iter().zip(0u8..=255).flat_map(group).collect()
     }
 
     /// How many there are.

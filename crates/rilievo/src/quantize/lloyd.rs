@@ -6,7 +6,7 @@
 //! cells from most of its faults (stochastic relaxation: Zeger, Vaisey and Gersho 1992).
 
 use super::Effort;
-use super::assign::{Assigner, Assignment};
+use super::cells::Cells;
 use super::coarse::coarsen;
 use super::entries::{Entries, unit};
 use super::local_search::{Search, local_search};
@@ -39,7 +39,7 @@ impl Schedule {
     /// Small tables get more steps and more points per entry: there both cost little, and one fault of the lattice weighs
     /// more. Measured on a uniform sphere and an 8-bit object-space map with 200 000 distinct normals.
     pub(super) fn new(effort: Effort, count: u32) -> Self {
-        let hot = 60 + 80_000u32.div_ceil(count).min(340);
+        let hot = 60 + 80_000u32.div_ceil(count).min(1000);
         let density = match count {
             0..=512 => 64,
             513..=4096 => 32,
@@ -47,14 +47,14 @@ impl Schedule {
         };
         match effort {
             Effort::Fast => match count {
-                0..=512 => Self { density: 8, hot: 18, cool: 8, fine: 3, heat: 0.3, omega: 1.5, kicks: 0 },
-                513..=4096 => Self { density: 8, hot: 12, cool: 4, fine: 4, heat: 0.25, omega: 1.7, kicks: 0 },
-                _ => Self { density: 16, hot: 12, cool: 8, fine: 1, heat: 0.3, omega: 1.7, kicks: 0 },
+                0..=512 => Self { density: 32, hot: 36, cool: 8, fine: 1, heat: 0.3, omega: 1.5, kicks: 0 },
+                513..=4096 => Self { density: 12, hot: 12, cool: 2, fine: 3, heat: 0.25, omega: 1.7, kicks: 0 },
+                _ => Self { density: 16, hot: 12, cool: 4, fine: 1, heat: 0.3, omega: 1.7, kicks: 0 },
             },
             Effort::Normal => Self { density, hot, cool: 30, fine: 6, heat: 0.4, omega: 1.6, kicks: 0 },
             // A kick costs a dozen steps on everything and mends one place: worth it while there are few places.
             Effort::Best => {
-                let kicks = (60_000 / count).min(300);
+                let kicks = (240_000 / count).min(1200);
                 Self { density: 2 * density, hot: 5 * hot, cool: 60, fine: 20, heat: 0.5, omega: 1.6, kicks }
             }
         }
@@ -66,59 +66,52 @@ const ROUND: u32 = 6;
 /// Steps after each kick of the local search.
 const KICK_STEPS: u32 = 14;
 
-/// A table of `count` entries for `points`.
-pub(super) fn shape(
-    points: &Points,
-    tree: &Tree,
-    count: usize,
-    schedule: Schedule,
-    progress: &dyn Progress,
-) -> Entries {
+/// A table of `count` entries for `points`, and the points in its cells, within a step or so.
+pub(super) fn shape(points: &Points, count: usize, schedule: Schedule, progress: &dyn Progress) -> (Entries, Cells) {
     let Schedule { hot, cool, fine, heat, omega, kicks, .. } = schedule;
     progress.begin("shaping the table", u64::from(hot + cool + kicks + fine));
     let wanted = count.saturating_mul(schedule.density);
     // Unless it saves a good part of the work, coarseness is not worth its error.
-    let coarse = (wanted < points.len() / 4 * 3).then(|| coarsen(points, tree, wanted));
-    let coarse_tree = coarse.as_ref().map(|c| Tree::build(c, LEAF));
-    let (few, few_tree) = (coarse.as_ref().unwrap_or(points), coarse_tree.as_ref().unwrap_or(tree));
+    let coarse = (wanted < points.len() / 4 * 3).then(|| coarsen(points, &Tree::build(points, LEAF), wanted));
+    let few = coarse.as_ref().map_or(points, |c| &c.points);
 
-    let mut entries = seed(few, count);
-    entries.sort();
-    let assigner = Assigner::new(few, few_tree);
+    let (mut entries, owners) = seed(few, count);
+    let mut cells = Cells::new(few, &owners, count);
     for step in 0..hot {
-        let found = assigner.assign(&entries);
+        cells.assign(&entries);
         let moving = step % ROUND == ROUND - 1;
-        approach_means(&mut entries, &found, if moving { 1.0 } else { omega });
+        approach_means(&mut entries, cells.sums(), if moving { 1.0 } else { omega });
         if moving {
-            split_merge(few, &found, &mut entries, count / 16 + 1);
-            entries.sort();
+            split_merge(&mut cells, &mut entries, count / 16 + 1);
         } else {
             let left = f64::from(hot - step) / f64::from(hot);
-            shake(&mut entries, few, &found, |_| heat * left * left, u64::from(step));
+            shake(&mut entries, &cells, |_| heat * left * left, u64::from(step));
         }
         progress.advance(1);
     }
     for step in 0..cool {
-        let found = assigner.assign(&entries);
-        approach_means(&mut entries, &found, if step + 2 < cool { omega } else { 1.0 });
+        cells.assign(&entries);
+        approach_means(&mut entries, cells.sums(), if step + 2 < cool { omega } else { 1.0 });
         progress.advance(1);
     }
     if kicks > 0 {
         let search = Search { rounds: kicks, steps: KICK_STEPS, omega };
-        entries = local_search(entries, few, &assigner, search, progress);
+        (entries, cells) = local_search(entries, cells, search, progress);
     }
-    let assigner = Assigner::new(points, tree);
+    if let Some(coarse) = &coarse {
+        cells = Cells::new(points, &coarse.refine(&cells.owners(few.len())), count);
+    }
     for step in 0..fine {
-        let found = assigner.assign(&entries);
-        approach_means(&mut entries, &found, if step + 2 < fine { omega } else { 1.0 });
+        cells.assign(&entries);
+        approach_means(&mut entries, cells.sums(), if step + 2 < fine { omega } else { 1.0 });
         progress.advance(1);
     }
-    entries
+    (entries, cells)
 }
 
 /// Moves each entry `omega` of the way to the mean of its points.
-pub(super) fn approach_means(entries: &mut Entries, found: &Assignment, omega: f64) {
-    for (entry, &[x, y, z, _]) in entries.directions.iter_mut().zip(&found.sums) {
+pub(super) fn approach_means(entries: &mut Entries, sums: &[[f64; 4]], omega: f64) {
+    for (entry, &[x, y, z, _]) in entries.directions.iter_mut().zip(sums) {
         let Some(mean) = unit([x, y, z]) else { continue };
         let aim = [0, 1, 2].map(|k| f64::from(entry[k]) + omega * (f64::from(mean[k]) - f64::from(entry[k])));
         *entry = unit(aim).unwrap_or(mean);
@@ -127,25 +120,11 @@ pub(super) fn approach_means(entries: &mut Entries, found: &Assignment, omega: f
 
 /// Draws each entry part of the way to a random one of its points: so the shake is as large as the cell, along the
 /// sphere, and towards where there is something.
-pub(super) fn shake(
-    entries: &mut Entries,
-    points: &Points,
-    found: &Assignment,
-    part: impl Fn(usize) -> f64,
-    step: u64,
-) {
-    let mut drawn = vec![(0, u32::MAX); entries.len()];
-    for (i, &owner) in found.owners.iter().enumerate() {
-        let ticket = scramble(step << 32 | i as u64);
-        let best = &mut drawn[owner as usize];
-        if ticket >= best.0 {
-            *best = (ticket, i as u32);
-        }
-    }
-    for (index, (entry, (_, point))) in entries.directions.iter_mut().zip(drawn).enumerate() {
-        let part = part(index);
-        if point != u32::MAX && part > 0.0 {
-            let p = points.at(point as usize);
+pub(super) fn shake(entries: &mut Entries, cells: &Cells, part: impl Fn(usize) -> f64, step: u64) {
+    for (index, entry) in entries.directions.iter_mut().enumerate() {
+        let (part, members) = (part(index), cells.members(index).len());
+        if members > 0 && part > 0.0 {
+            let p = cells.member(index, (scramble(step << 32 | index as u64) % members as u64) as usize);
             let aim = [0, 1, 2].map(|k| f64::from(entry[k]) + part * (f64::from(p[k]) - f64::from(entry[k])));
             *entry = unit(aim).unwrap_or(*entry);
         }

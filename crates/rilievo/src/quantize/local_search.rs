@@ -3,10 +3,9 @@
 //! Lloyd's iteration ends in one of very many local optima: the cells form patches of a hexagonal lattice with faults
 //! between them. So one place after another is shaken, the iteration is run again, and what is better is kept.
 
-use super::assign::Assigner;
+use super::cells::Cells;
 use super::entries::Entries;
 use super::lloyd::{approach_means, scramble, shake};
-use super::points::Points;
 use super::tree::squared;
 use crate::Progress;
 
@@ -26,36 +25,35 @@ const KICKED: u64 = 20;
 /// Part of the way to a random point of its own that an entry is drawn.
 const HEAT: f64 = 0.9;
 
-/// Improves a table for `points`; never makes it worse for them.
+/// Improves a table for the points in its cells; never makes it worse for them.
 pub(super) fn local_search(
     mut best: Entries,
-    points: &Points,
-    assigner: &Assigner<'_>,
+    mut cells: Cells,
     search: Search,
     progress: &dyn Progress,
-) -> Entries {
-    let mut found = assigner.assign(&best);
-    let mut score = total(&found.sums);
+) -> (Entries, Cells) {
+    cells.assign(&best);
+    let mut score = total(cells.sums());
     for round in 0..u64::from(search.rounds) {
-        let mut tried = best.clone();
+        let (mut tried, mut tried_cells) = (best.clone(), cells.clone());
         let center = best.directions[(scramble(round << 32 | 1) % best.len() as u64) as usize];
         let many = 1 + scramble(round << 32 | 2) % KICKED.min(best.len() as u64);
         let mut distances: Vec<f32> = best.directions.iter().map(|&e| squared(e, center)).collect();
         let (_, &mut reach, _) = distances.clone().select_nth_unstable_by(many as usize - 1, f32::total_cmp);
         distances.iter_mut().for_each(|d| *d = if *d <= reach { 1.0 } else { 0.0 });
-        shake(&mut tried, points, &found, |entry| HEAT * f64::from(distances[entry]), 1 << 31 | round);
+        shake(&mut tried, &cells, |entry| HEAT * f64::from(distances[entry]), 1 << 31 | round);
         for step in 0..search.steps {
-            let found = assigner.assign(&tried);
-            approach_means(&mut tried, &found, if step + 2 < search.steps { search.omega } else { 1.0 });
+            tried_cells.assign(&tried);
+            approach_means(&mut tried, tried_cells.sums(), if step + 2 < search.steps { search.omega } else { 1.0 });
         }
-        let settled = assigner.assign(&tried);
-        let reached = total(&settled.sums);
+        tried_cells.assign(&tried);
+        let reached = total(tried_cells.sums());
         if reached > score {
-            (best, found, score) = (tried, settled, reached);
+            (best, cells, score) = (tried, tried_cells, reached);
         }
         progress.advance(1);
     }
-    best
+    (best, cells)
 }
 
 /// Σ |s| over the entries' sums s of weight × point. With every entry at the mean of its points the sum of squared
@@ -68,22 +66,21 @@ fn total(sums: &[[f64; 4]]) -> f64 {
 mod tests {
     use super::super::seed::seed;
     use super::super::testing::scattered;
-    use super::super::tree::Tree;
     use super::*;
     use crate::progress::Silent;
 
     #[test]
     fn searching_longer_is_never_worse_and_helps() {
         let points = scattered(4000, 1);
-        let tree = Tree::build(&points, 16);
-        let assigner = Assigner::new(&points, &tree);
-        let start = seed(&points, 40);
-        let mut last = total(&assigner.assign(&start).sums);
+        let (start, owners) = seed(&points, 40);
+        let mut cells = Cells::new(&points, &owners, 40);
+        cells.assign(&start);
+        let mut last = total(cells.sums());
         let first = last;
         for rounds in [5, 40] {
             let search = Search { rounds, steps: 8, omega: 1.5 };
-            let found = local_search(start.clone(), &points, &assigner, search, &Silent);
-            let reached = total(&assigner.assign(&found).sums);
+            let (_, found) = local_search(start.clone(), cells.clone(), search, &Silent);
+            let reached = total(found.sums());
             assert!(reached >= last, "{reached} {last}");
             last = reached;
         }

@@ -1,16 +1,15 @@
 //! Quantising normal maps: a small table of normals and an index map into it (Tarini et al. 2000, § 4).
 //!
-//! First the distinct directions are found; a quadtree over them makes exact nearest-entry search cheap; the
-//! table is seeded by cutting clusters in two and shaped by Lloyd's iteration on ever more of the points, rounded to what
-//! files hold, sorted along a Hilbert curve, and only then is every texel given its nearest entry.
+//! First the distinct directions are found, and fewer that stand for them (the nodes of a quadtree); the table is seeded by
+//! cutting clusters in two and shaped by Lloyd's iteration, at first on the few, then on all; points stay in the cells of
+//! their entries from step to step. The table is rounded to what files hold and sorted along a Hilbert curve, and only
+//! then is every texel given its nearest entry.
 //!
 //! - **Determinism:** class A: the same bits for any thread count, with and without `rayon`. Work is cut into pieces that
 //!   do not depend on the machine, and only + − × ÷ √ in a fixed order decide anything.
 
-mod assign;
-mod blocks;
 mod bound;
-mod candidates;
+mod cells;
 mod coarse;
 mod colors;
 mod dither;
@@ -30,17 +29,17 @@ mod spread;
 mod testing;
 mod texels;
 mod tree;
+mod vicinity;
 
 pub use bound::fejes_toth_rms_rad;
 pub use dither::Dither;
 pub use search::quantize_within;
 pub use texels::Texels;
 
-use self::assign::Assigner;
+use self::cells::Cells;
 use self::entries::Entries;
 use self::nearest::Nearest;
 use self::points::{Gathered, NO_POINT, Points, gather};
-use self::tree::{LEAF, Tree};
 use crate::indexed::{IndexMap, MAX_ENTRIES, MaterialMap, MaterialSpan, NormalTable, QuantizedMap};
 use crate::measure::{AngleStats, angle_of_chord, angle_stats, weighted_angle_stats};
 use crate::normal::encode_u16;
@@ -115,7 +114,7 @@ pub struct Quantized<S> {
 /// within a material along a Hilbert curve over the sphere.
 ///
 /// - **Space:** that of `map`; nothing here depends on it.
-/// - **Memory:** up to 20 bytes per texel beside the map while it works, and some 40 per distinct normal.
+/// - **Memory:** up to 20 bytes per texel beside the map while it works, and some 80 per distinct normal.
 /// - **Accuracy:** on a uniform sphere within ½ % of [`fejes_toth_rms_rad`], held by `tests/quantize_quality.rs`.
 ///
 /// # Errors
@@ -147,16 +146,19 @@ pub fn quantize<'a, S: Space>(
         return Err(Error::parameter("entries", count, expected));
     }
 
-    let tree = Tree::build(&points, LEAF);
-    let shaped = if count as usize >= points.len() {
-        Entries::from_groups(points.groups.iter().map(|g| g.points.clone().map(|i| points.at(i)).collect()))
+    let (shaped, mut cells) = if count as usize >= points.len() {
+        let groups = points.groups.iter().map(|g| g.points.clone().map(|i| points.at(i)).collect());
+        let owners: Vec<u32> = (0..points.len() as u32).collect();
+        (Entries::from_groups(groups), Cells::new(&points, &owners, points.len()))
     } else {
-        lloyd::shape(&points, &tree, count as usize, lloyd::Schedule::new(effort, count), progress)
+        lloyd::shape(&points, count as usize, lloyd::Schedule::new(effort, count), progress)
     };
-    let (table, entries) = finish_table::<S>(&points, shaped)?;
+    let (table, entries, new_of) = finish_table::<S>(&points, shaped)?;
 
     progress.begin("indexing texels", 1);
-    let owners = Assigner::new(&points, &tree).assign_exact(&entries).owners;
+    cells.renumber(&new_of);
+    cells.assign_exact(&entries);
+    let owners = cells.owners(points.len());
     let entry_of: Vec<u32> = point_of.iter().map(|&point| owners[point as usize]).collect();
     let nearest = Nearest::new(&entries);
     let group_of = |texel: usize| {
@@ -219,16 +221,20 @@ fn gutter(entries: &Entries, nearest: &Nearest, group: Option<usize>, normal: [f
     group.map(find).or_else(of_any).unwrap_or(0)
 }
 
-/// Rounds the entries to what files hold and puts them in table order.
-fn finish_table<S: Space>(points: &Points, shaped: Entries) -> Result<(NormalTable<S>, Entries)> {
+/// Rounds the entries to what files hold and puts them in table order; the last result is the new number of each.
+fn finish_table<S: Space>(points: &Points, shaped: Entries) -> Result<(NormalTable<S>, Entries, Vec<u32>)> {
     let mut normals = Vec::with_capacity(shaped.len());
     let mut spans = Vec::with_capacity(points.groups.len());
+    let mut new_of = vec![0; shaped.len()];
     for (group, span) in points.groups.iter().zip(&shaped.spans) {
-        let mut part: Vec<_> = shaped.directions[span.clone()].iter().map(|&d| round::storable::<S>(d)).collect();
-        part.sort_by_cached_key(|&n| (octahedral::hilbert(n.vec().to_array()), encode_u16(n)));
-        normals.extend(part);
+        let mut part: Vec<_> = span.clone().map(|e| (round::storable::<S>(shaped.directions[e]), e)).collect();
+        part.sort_by_cached_key(|&(n, _)| (octahedral::hilbert(n.vec().to_array()), encode_u16(n)));
+        for (normal, old) in part {
+            new_of[old] = normals.len() as u32;
+            normals.push(normal);
+        }
         spans.push(MaterialSpan { material: group.material, entries: span.start as u32..span.end as u32 });
     }
     let entries = Entries { directions: normals.iter().map(|n| n.vec().to_array()).collect(), spans: shaped.spans };
-    Ok((NormalTable::with_materials(normals, spans)?, entries))
+    Ok((NormalTable::with_materials(normals, spans)?, entries, new_of))
 }

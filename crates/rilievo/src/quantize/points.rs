@@ -77,6 +77,10 @@ impl Points {
         mut found: impl FnMut(usize, u32),
     ) {
         let first = self.x.len();
+        for values in [&mut self.x, &mut self.y, &mut self.z, &mut self.weight] {
+            values.reserve(keys.len() + LANES);
+        }
+        self.codes.reserve(keys.len());
         let item = |key: &u64| (key & ((1 << ITEM_BITS) - 1)) as usize;
         let mut cell = Vec::new();
         for keys in keys.chunk_by(|a, b| a >> ITEM_BITS == b >> ITEM_BITS) {

@@ -22,30 +22,45 @@ impl Spread {
 
     /// The direction of the largest spread and the sum of weight × offset² along it.
     ///
-    /// Power iteration: only the direction matters for where a set is cut, and that converges as soon as one exists.
+    /// Powers of the matrix: only the direction matters for where a set is cut, and that converges as soon as one exists.
     pub(super) fn principal(&self) -> ([f64; 3], f64) {
-        let [xx, xy, xz, yy, yz, zz] = self.moments;
-        let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        // The longest row cannot be orthogonal to the principal direction.
-        let largest = if xx >= yy && xx >= zz {
-            0
-        } else if yy >= zz {
-            1
-        } else {
-            2
-        };
-        let (mut axis, mut length) = (rows[largest], 0.0);
-        for _ in 0..10 {
-            let norm = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
-            if norm < 1e-200 {
-                return ([1.0, 0.0, 0.0], 0.0);
-            }
-            let unit = axis.map(|c| c / norm);
-            axis = rows.map(|r| r[0] * unit[0] + r[1] * unit[1] + r[2] * unit[2]);
-            length = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
+        let trace = self.moments[0] + self.moments[3] + self.moments[5];
+        if trace < 1e-200 {
+            return ([1.0, 0.0, 0.0], 0.0);
         }
-        (axis.map(|c| c / length.max(1e-300)), length)
+        let mut power = self.moments.map(|m| m / trace);
+        for _ in 0..DOUBLINGS {
+            power = square(power);
+        }
+        let [xx, xy, xz, yy, yz, zz] = power;
+        // The longest row cannot be orthogonal to the principal direction.
+        let row = if xx >= yy && xx >= zz {
+            [xx, xy, xz]
+        } else if yy >= zz {
+            [xy, yy, yz]
+        } else {
+            [xz, yz, zz]
+        };
+        let length = (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]).sqrt();
+        let axis @ [x, y, z] = row.map(|c| c / length);
+        let [xx, xy, xz, yy, yz, zz] = self.moments;
+        (axis, xx * x * x + yy * y * y + zz * z * z + 2.0 * (xy * x * y + xz * x * z + yz * y * z))
     }
+}
+
+/// How often the matrix is squared: its 16th power. The trace is 1 at first and thus no less than 3⁻¹⁶ in the end.
+const DOUBLINGS: u32 = 4;
+
+/// The square of a symmetric matrix.
+fn square([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 6] {
+    [
+        xx * xx + xy * xy + xz * xz,
+        xx * xy + xy * yy + xz * yz,
+        xx * xz + xy * yz + xz * zz,
+        xy * xy + yy * yy + yz * yz,
+        xy * xz + yy * yz + yz * zz,
+        xz * xz + yz * yz + zz * zz,
+    ]
 }
 
 #[cfg(test)]
