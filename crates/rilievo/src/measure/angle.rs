@@ -111,7 +111,7 @@ fn band_count(texels: usize) -> usize {
 }
 
 /// The order of an angle among all angles: non-negative floats are ordered like their bits.
-fn key(angle: f64) -> usize {
+pub(super) fn key(angle: f64) -> usize {
     (angle as f32).to_bits() as usize
 }
 

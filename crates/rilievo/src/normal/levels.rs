@@ -19,16 +19,26 @@ pub struct NormalLevels<S> {
     pub materials: Option<MipChain<u8>>,
 }
 
+/// Rows that go into a [`Cascade`] together.
+const BAND_ROWS: usize = 64;
+
 /// One texel of a level.
 #[derive(Debug, Clone, Copy)]
-struct Texel<S> {
+pub(crate) struct Texel<S> {
     /// Sum of the full-size normals it stands for, of its material only: not normalised between levels, so that each
     /// level is the mean of the map and not of the level above.
     sum: [f32; 3],
     /// Its direction.
-    normal: Normal<S>,
-    material: u8,
+    pub(crate) normal: Normal<S>,
+    pub(crate) material: u8,
     covered: bool,
+}
+
+impl<S: Space> Texel<S> {
+    /// A texel of the full-size map.
+    pub(crate) fn new(normal: Normal<S>, material: u8, covered: bool) -> Self {
+        Self { sum: normal.vec().to_array(), normal, material, covered }
+    }
 }
 
 /// Builds all levels of a normal map.
@@ -49,19 +59,27 @@ pub fn normal_levels<S: Space>(
 ) -> Result<NormalLevels<S>> {
     materials.as_ref().map_or(Ok(()), |m| map.expect_same_size("the material map", m))?;
     covered.map_or(Ok(()), |c| map.expect_same_size("the coverage", c))?;
-    let at = |x, y| {
-        let normal = map[(x, y)];
-        let material = materials.as_ref().map_or(0, |m| m[(x, y)]);
-        Texel { sum: normal.vec().to_array(), normal, material, covered: covered.is_none_or(|c| c[(x, y)]) }
-    };
-    let mut smaller = halved(map.size(), at)?;
-    let (mut normal_maps, mut material_maps) = (Vec::new(), Vec::new());
-    while let Some(level) = smaller {
-        normal_maps.push(level.map(|t| t.normal));
-        material_maps.push(level.map(|t| t.material));
-        smaller = halved(level.size(), |x, y| level[(x, y)])?;
+    let mut cascade = Cascade::new(map.size());
+    let sizes = cascade.sizes();
+    let mut found: Vec<(Vec<Normal<S>>, Vec<u8>)> = vec![Default::default(); sizes.len()];
+    let (width, texels) = (map.width() as usize, map.texels());
+    for first in (0..texels.len()).step_by(width * BAND_ROWS) {
+        let band = first..texels.len().min(first + width * BAND_ROWS);
+        let texel = |t: usize| {
+            let material = materials.as_ref().map_or(0, |m| m.texels()[t]);
+            Texel::new(texels[t], material, covered.is_none_or(|c| c.texels()[t]))
+        };
+        cascade.push(band.map(texel), |level, texels| {
+            let (normals, materials) = &mut found[level];
+            normals.extend(texels.iter().map(|t| t.normal));
+            materials.extend(texels.iter().map(|t| t.material));
+        });
     }
-    normal_maps.insert(0, map);
+    let (mut normal_maps, mut material_maps) = (vec![map], Vec::new());
+    for ((width, height), (normals, materials)) in sizes.into_iter().zip(found) {
+        normal_maps.push(Grid::new(width, height, normals)?);
+        material_maps.push(Grid::new(width, height, materials)?);
+    }
     let materials = materials.map(|base| {
         material_maps.insert(0, base);
         MipChain::from_levels(material_maps)
@@ -69,22 +87,86 @@ pub fn normal_levels<S: Space>(
     Ok(NormalLevels { normals: MipChain::from_levels(normal_maps)?, materials: materials.transpose()? })
 }
 
-/// The level after one of size `above` whose texels are `at(x, y)`; `None` after 1 × 1.
-fn halved<S: Space>(above: (u32, u32), at: impl Fn(u32, u32) -> Texel<S> + Sync) -> Result<Option<Grid<Texel<S>>>> {
-    let Some((width, height)) = next_size(above) else { return Ok(None) };
-    let empty = Texel { sum: [0.0; 3], normal: Normal::Z, material: 0, covered: false };
-    let mut level = Grid::filled(width, height, empty)?;
-    par::for_each_row(level.texels_mut(), width as usize, |y, row| {
-        let mut block = Vec::with_capacity(9);
-        for (x, texel) in row.iter_mut().enumerate() {
-            block.clear();
-            for sy in span(y as u32, above.1) {
-                block.extend(span(x as u32, above.0).map(|sx| at(sx, sy)));
-            }
-            *texel = reduce(&block);
+/// All levels below a map whose rows come one after the other, from the top. A few rows of each level are kept.
+#[derive(Debug)]
+pub(crate) struct Cascade<S> {
+    steps: Vec<Halving<S>>,
+}
+
+/// One level on its way to the next.
+#[derive(Debug)]
+struct Halving<S> {
+    /// Size of the level that comes in.
+    above: (u32, u32),
+    /// Size of the level that goes out.
+    size: (u32, u32),
+    /// Rows that came in and are not used up.
+    pending: Vec<Texel<S>>,
+    /// The number of the first of them.
+    first: u32,
+    /// How many rows went out.
+    done: u32,
+}
+
+impl<S: Space> Cascade<S> {
+    /// For a map of this size.
+    pub(crate) fn new(size: (u32, u32)) -> Self {
+        let mut steps = Vec::new();
+        let mut above = size;
+        while let Some(size) = next_size(above) {
+            steps.push(Halving { above, size, pending: Vec::new(), first: 0, done: 0 });
+            above = size;
         }
-    });
-    Ok(Some(level))
+        Self { steps }
+    }
+
+    /// The sizes of the smaller levels, largest first.
+    pub(crate) fn sizes(&self) -> Vec<(u32, u32)> {
+        self.steps.iter().map(|s| s.size).collect()
+    }
+
+    /// Takes the next whole rows of the map, and hands on the rows of each smaller level that are known with them. The
+    /// largest of the smaller levels is number 0.
+    pub(crate) fn push(&mut self, rows: impl IntoIterator<Item = Texel<S>>, mut emit: impl FnMut(usize, &[Texel<S>])) {
+        let Some(first) = self.steps.first_mut() else { return };
+        first.pending.extend(rows);
+        for level in 0..self.steps.len() {
+            let rows = self.steps[level].advance();
+            if rows.is_empty() {
+                return;
+            }
+            emit(level, &rows);
+            if let Some(next) = self.steps.get_mut(level + 1) {
+                next.pending.extend(rows);
+            }
+        }
+    }
+}
+
+impl<S: Space> Halving<S> {
+    /// The rows whose blocks are complete.
+    fn advance(&mut self) -> Vec<Texel<S>> {
+        let ((above_width, above_height), (width, height)) = (self.above, self.size);
+        let came = self.first + (self.pending.len() / above_width as usize) as u32;
+        let ready = (self.done..height).take_while(|&y| span(y, above_height).end <= came).count();
+        let mut rows = vec![Texel::new(Normal::Z, 0, false); ready * width as usize];
+        par::for_each_row(&mut rows, width as usize, |row, texels| {
+            let mut block = Vec::with_capacity(9);
+            for (x, texel) in texels.iter_mut().enumerate() {
+                block.clear();
+                for y in span(self.done + row as u32, above_height) {
+                    let start = (y - self.first) as usize * above_width as usize;
+                    block.extend(span(x as u32, above_width).map(|x| self.pending[start + x as usize]));
+                }
+                *texel = reduce(&block);
+            }
+        });
+        self.done += ready as u32;
+        let used = if self.done == height { came } else { span(self.done, above_height).start };
+        self.pending.drain(..(used - self.first) as usize * above_width as usize);
+        self.first = used;
+        rows
+    }
 }
 
 /// One texel from the block above it, which has at least one.
@@ -146,6 +228,32 @@ mod tests {
         assert_eq!(levels.normals.level(1)[(0, 0)], Normal::X);
         assert!(levels.normals.level(1)[(1, 0)].angle_to(normal(0.0, 1.0, 1.0)) < 1e-6);
         assert_eq!(levels.normals.level(2)[(0, 0)], Normal::X);
+    }
+
+    #[test]
+    fn rows_in_bands_of_any_height_give_the_levels_of_the_whole_map() {
+        for (width, height) in [(1, 1), (7, 5), (1, 13), (16, 1), (3, 200), (33, 34)] {
+            let texel = |x: u32, y: u32| {
+                let v = normal(x as f32 - 3.0, (y * 7 % 11) as f32 - 5.0, 0.5);
+                Texel::new(v, ((x + y) % 3) as u8, (x * 5 + y * 3) % 7 > 1)
+            };
+            let base = Grid::from_fn(width, height, texel).unwrap();
+            let blocks = |block: &[&Texel<Object>]| reduce(&block.iter().map(|&&t| t).collect::<Vec<_>>());
+            let expected = MipChain::build(base.clone(), blocks);
+            for band in [1, 2, 3, 7, 64] {
+                let mut cascade = Cascade::new((width, height));
+                let mut found = vec![Vec::new(); cascade.sizes().len()];
+                for rows in base.texels().chunks(band * width as usize) {
+                    cascade.push(rows.iter().copied(), |level, texels| found[level].extend_from_slice(texels));
+                }
+                let parts = |t: &Texel<Object>| (t.sum, t.normal, t.material, t.covered);
+                let all = |texels: &[Texel<Object>]| texels.iter().map(parts).collect::<Vec<_>>();
+                assert_eq!(found.len() + 1, expected.levels().len());
+                for (found, level) in found.iter().zip(&expected.levels()[1..]) {
+                    assert_eq!(all(found), all(level.texels()), "{width}×{height} in bands of {band}");
+                }
+            }
+        }
     }
 
     #[test]

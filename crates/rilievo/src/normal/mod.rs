@@ -13,6 +13,7 @@ use glam::Vec3;
 pub(crate) use blue_noise::BlueNoise;
 pub use dither::{DitherU8, encode_map_u8};
 pub use encode::{decode_u8, decode_u16, encode_u8, encode_u16};
+pub(crate) use levels::{Cascade, Texel};
 pub use levels::{NormalLevels, normal_levels};
 pub use spread::spread_normals;
 
