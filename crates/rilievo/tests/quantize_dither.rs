@@ -129,8 +129,10 @@ fn table_materials_and_smaller_levels_are_those_without_dithering() {
                     assert_eq!(dithered.map.table(), plain.map.table());
                     assert_eq!(dithered.map.expand_materials(), materials, "{dither:?}");
                     assert_eq!(dithered.map.indices().levels()[1..], plain.map.indices().levels()[1..]);
-                    assert_eq!(dithered.error, angle_stats(map, &dithered.map.expand(), None).unwrap());
-                    // Both sum in their own order.
+                    // All sum in their own order.
+                    let measured = angle_stats(map, &dithered.map.expand(), None).unwrap();
+                    assert!((dithered.error.rms_rad / measured.rms_rad - 1.0).abs() < 1e-9);
+                    assert_eq!((dithered.error.p99_rad, dithered.error.max_rad), (measured.p99_rad, measured.max_rad));
                     assert!(dithered.error.rms_rad >= plain.error.rms_rad * (1.0 - 1e-9));
                     // (Diffusion needs neighbours of the same material.)
                     assert!(entries < 100 || cell == 1 || dithered.map.base() != plain.map.base());

@@ -12,6 +12,7 @@ mod embedded;
 mod exr;
 mod height;
 mod jpeg;
+mod lengths;
 mod materials;
 mod normals;
 mod npy;
@@ -19,6 +20,7 @@ mod picture;
 pub(crate) mod png;
 pub(crate) mod png_write;
 mod raster;
+mod rows;
 mod tiff;
 
 pub use self::exr::encode_normals_exr;
@@ -32,6 +34,7 @@ pub use png_write::{
     encode_apng, encode_gray_png8, encode_gray_png16, encode_normals_png8, encode_normals_png16, encode_picture_png,
 };
 pub use raster::Depth;
+pub use rows::NormalRows;
 
 use crate::error::{Error, Result};
 use crate::limits::Limits;

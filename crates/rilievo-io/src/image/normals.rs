@@ -2,9 +2,10 @@
 
 use rilievo::normal::{decode_u8, decode_u16, spread_normals};
 use rilievo::quantize::Texels;
-use rilievo::{Convention, Grid, Normal, NormalMap, Space, Tangent};
+use rilievo::{Convention, Grid, Normal, NormalMap, Space};
 
 use super::decode_raster;
+use super::lengths::Lengths;
 use super::raster::{Depth, Raster, Samples};
 use crate::error::{Error, Result};
 use crate::limits::Limits;
@@ -65,11 +66,11 @@ fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limit
     let (mut lengths, mut repaired) = (Lengths::default(), None);
     let normals = match raster.samples() {
         Samples::U8(v) => {
-            measure(&raster, v, inside, &mut lengths, |c| f32::from(c) / 127.5 - 1.0);
+            lengths.measure(v, raster.channels(), 0, inside.map(Grid::texels), |c| f32::from(c) / 127.5 - 1.0);
             convert(&raster, v, inside, |c| convention.apply(decode_u8(c)))
         }
         Samples::U16(v) => {
-            measure(&raster, v, inside, &mut lengths, |c| f32::from(c) / 32_767.5 - 1.0);
+            lengths.measure(v, raster.channels(), 0, inside.map(Grid::texels), |c| f32::from(c) / 32_767.5 - 1.0);
             convert(&raster, v, inside, |c| convention.apply(decode_u16(c)))
         }
         Samples::F32(v) => {
@@ -77,7 +78,7 @@ fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limit
             if let (Some(without), false) = (&without, repair) {
                 return Err(Error::format(source.name(), raster.place(without.first), without.reason()));
             }
-            measure(&raster, v, inside, &mut lengths, |c| c);
+            lengths.measure(v, raster.channels(), 0, inside.map(Grid::texels), |c| c);
             let mut normals = convert(&raster, v, inside, |c| convention.apply(Normal::new_or(c.into(), Normal::Z)));
             if let Some(without) = without {
                 normals = without.repair(source.name(), &raster, v, inside, normals)?;
@@ -86,7 +87,7 @@ fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limit
             normals
         }
     };
-    let mut warnings = lengths.warnings::<S>(&raster);
+    let mut warnings = lengths.warnings::<S>(raster.depth(), |i| raster.place(i));
     warnings.extend(repaired);
     let colors = match raster.samples() {
         Samples::U8(v) if covered.is_none() => Some(raster.grid(colors(v, raster.channels(), convention))),
@@ -96,7 +97,7 @@ fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limit
 }
 
 /// The colours alone, +Y up. 255 − c stands for exactly the opposite of c.
-fn colors(samples: &[u8], channels: usize, convention: Convention) -> Vec<[u8; 3]> {
+pub(super) fn colors(samples: &[u8], channels: usize, convention: Convention) -> Vec<[u8; 3]> {
     let green = |g: u8| if convention == Convention::Dx { 255 - g } else { g };
     samples.chunks_exact(channels).map(|t| [t[0], green(t[1]), t[2]]).collect()
 }
@@ -175,71 +176,4 @@ impl Directionless {
 /// Whether each texel has a direction.
 fn known<S: Space>(raster: &Raster, samples: &[f32]) -> impl Iterator<Item = bool> {
     samples.chunks_exact(raster.channels()).map(|t| Normal::<S>::new([t[0], t[1], t[2]].into()).is_some())
-}
-
-/// What the lengths and signs of the stored vectors say about the file.
-#[derive(Debug, Default)]
-struct Lengths {
-    /// Texels more than 10 % off unit length: count and first. Rounding to 8 bits gives below 1 %, JPEG a few.
-    off: (usize, usize),
-    /// Texels that point into the surface: count and first.
-    backward: (usize, usize),
-    any_negative: bool,
-    any_different: bool,
-}
-
-fn measure<T: Copy>(
-    raster: &Raster,
-    samples: &[T],
-    covered: Option<&Grid<bool>>,
-    lengths: &mut Lengths,
-    component: impl Fn(T) -> f32,
-) {
-    let note = |(count, first): &mut (usize, usize), i| {
-        *first = if *count == 0 { i } else { *first };
-        *count += 1;
-    };
-    for (i, t) in samples.chunks_exact(raster.channels()).enumerate() {
-        if covered.is_some_and(|c| !c.texels()[i]) {
-            continue;
-        }
-        let [x, y, z] = [t[0], t[1], t[2]].map(&component);
-        let squared = x * x + y * y + z * z;
-        if !(0.81..=1.21).contains(&squared) {
-            note(&mut lengths.off, i);
-        }
-        if z < 0.0 {
-            note(&mut lengths.backward, i);
-        }
-        lengths.any_negative |= x < 0.0 || y < 0.0 || z < 0.0;
-        lengths.any_different |= x != y || y != z;
-    }
-}
-
-impl Lengths {
-    fn warnings<S: Space>(&self, raster: &Raster) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let (off, first) = self.off;
-        if off > 0 {
-            let place = raster.place(first);
-            warnings.push(format!(
-                "{off} texels are more than 10 % off unit length, the first one {place}; they were renormalised: \
-                 is this a normal map?"
-            ));
-        }
-        let (backward, first) = self.backward;
-        if backward > 0 && S::NAME == Tangent::NAME {
-            let place = raster.place(first);
-            warnings.push(format!(
-                "{backward} texels point into the surface, the first one {place}; is this an object-space map?"
-            ));
-        }
-        if !self.any_different {
-            warnings.push("red, green and blue are equal everywhere: this looks like a height map".to_owned());
-        }
-        if raster.depth() == Depth::F32 && !self.any_negative && self.any_different && off > 0 {
-            warnings.push("no component is negative: floats are taken as −1 … 1, these look like 0 … 1".to_owned());
-        }
-        warnings
-    }
 }

@@ -4,55 +4,77 @@
 //! entries of the material that most of them have.
 
 use super::entries::{Entries, squared_f64};
+use super::index::Rows;
 use super::nearest::Nearest;
-use crate::measure::{AngleStats, angle_of_chord, weighted_angle_stats};
-use crate::normal::normal_levels;
-use crate::{Grid, IndexMap, MipChain, NormalMap, Space, par};
+use crate::measure::{AngleStats, AngleSums, angle_of_chord};
+use crate::normal::{Cascade, Texel};
+use crate::{Grid, IndexMap, Normal, Space, par};
 
-/// All levels of an index map, and the error of each but the first against the mean normals of that level.
-pub(super) struct Levels {
-    pub chain: MipChain<u16>,
-    pub errors: Vec<AngleStats>,
+/// All levels below the full size, made while its rows come.
+#[derive(Debug)]
+pub(super) struct Levels<'a, S> {
+    cascade: Cascade<S>,
+    entries: &'a Entries,
+    nearest: &'a Nearest,
+    /// The group (material) of each entry.
+    groups: Vec<u8>,
+    levels: Vec<Level>,
 }
 
-/// All levels below `base`, and `base` itself.
-pub(super) fn mip_chain<S: Space>(
-    map: &NormalMap<S>,
-    base: IndexMap,
-    covered: Option<&Grid<bool>>,
-    entries: &Entries,
-    nearest: &Nearest,
-) -> crate::Result<Levels> {
-    // Which material's entries a texel uses, by position in the table's spans.
-    let group_of = |entry: u16| entries.spans.partition_point(|s| s.end <= usize::from(entry)) as u8;
-    let groups: Vec<u8> = (0..entries.len()).map(|e| group_of(e as u16)).collect();
-    let group_map = base.map(|&entry| groups[usize::from(entry)]);
-    let levels = normal_levels(map.clone(), Some(group_map), covered)?;
-    let group_levels = levels.materials.iter().flat_map(MipChain::levels).skip(1);
-    let (mut chain, mut errors) = (vec![base], Vec::new());
-    for (normals, level_groups) in levels.normals.levels().iter().skip(1).zip(group_levels) {
-        let above = &chain[chain.len() - 1];
-        let mut level = Grid::filled(normals.width(), normals.height(), 0u16)?;
-        par::for_each_row(level.texels_mut(), normals.width() as usize, |y, row| {
-            for (x, entry) in row.iter_mut().enumerate() {
-                let at = (x as u32, y as u32);
-                let group = level_groups[at];
-                // A texel of the block above is a good first guess, if its material won.
-                let guess = above[(2 * at.0, 2 * at.1)];
-                let hint = (groups[usize::from(guess)] == group)
-                    .then(|| (u32::from(guess), entries.directions[usize::from(guess)]));
-                let direction = normals[at].vec().to_array().map(f64::from);
-                *entry = nearest.find(usize::from(group), direction, hint) as u16;
-            }
-        });
-        let angles: Vec<(f64, u64)> = (normals.texels().iter().zip(level.texels()))
-            .map(|(n, &entry)| {
-                let direction = n.vec().to_array().map(f64::from);
-                (angle_of_chord(squared_f64(direction, entries.directions[usize::from(entry)])), 1)
-            })
-            .collect();
-        errors.push(weighted_angle_stats(&angles));
-        chain.push(level);
+#[derive(Debug)]
+struct Level {
+    size: (u32, u32),
+    indices: Vec<u16>,
+    /// Against the mean normals of the level.
+    error: AngleSums,
+}
+
+impl<'a, S: Space> Levels<'a, S> {
+    pub(super) fn new(size: (u32, u32), entries: &'a Entries, nearest: &'a Nearest) -> Self {
+        let cascade = Cascade::new(size);
+        let level = |size: (u32, u32)| {
+            let texels = size.0 as usize * size.1 as usize;
+            Level { size, indices: Vec::with_capacity(texels), error: AngleSums::new(texels as u64) }
+        };
+        let levels = cascade.sizes().into_iter().map(level).collect();
+        Self { cascade, entries, nearest, groups: entries.groups(), levels }
     }
-    Ok(Levels { chain: MipChain::from_levels(chain)?, errors })
+
+    /// Takes the next rows, and the entries of their texels: these tell the materials.
+    pub(super) fn push(&mut self, rows: &Rows<'_, S>, indices: &[u16]) {
+        let Self { cascade, entries, nearest, groups, levels } = self;
+        let texel = |(i, (&normal, &entry)): (usize, (&Normal<S>, &u16))| {
+            Texel::new(normal, groups[usize::from(entry)], rows.is_covered(i))
+        };
+        cascade.push(rows.normals.iter().zip(indices).enumerate().map(texel), |level, texels| {
+            let Level { size, indices, error } = &mut levels[level];
+            let mut found = vec![(0, 0.0); texels.len()];
+            let width = size.0 as usize;
+            par::for_each_row(&mut found, width, |row, found| {
+                let mut last: Option<(u8, u32)> = None;
+                for (slot, texel) in found.iter_mut().zip(&texels[row * width..]) {
+                    // The neighbour's entry is a good first guess, if it is of the same material.
+                    let hint = last.filter(|last| last.0 == texel.material);
+                    let hint = hint.map(|(_, entry)| (entry, entries.directions[entry as usize]));
+                    let direction = texel.normal.vec().to_array().map(f64::from);
+                    let entry = nearest.find(usize::from(texel.material), direction, hint);
+                    let distance2 = squared_f64(direction, entries.directions[entry as usize]);
+                    *slot = (entry as u16, angle_of_chord(distance2));
+                    last = Some((texel.material, entry));
+                }
+            });
+            indices.extend(found.iter().map(|f| f.0));
+            found.iter().for_each(|f| error.add(f.1));
+        });
+    }
+
+    /// The levels, largest first, and the error of each.
+    pub(super) fn finish(self) -> crate::Result<(Vec<IndexMap>, Vec<AngleStats>)> {
+        let (mut maps, mut errors) = (Vec::new(), Vec::new());
+        for level in self.levels {
+            maps.push(Grid::new(level.size.0, level.size.1, level.indices)?);
+            errors.extend(level.error.finish());
+        }
+        Ok((maps, errors))
+    }
 }

@@ -14,6 +14,7 @@ mod coarse;
 mod colors;
 mod dither;
 mod entries;
+mod index;
 mod lloyd;
 mod local_search;
 mod mip;
@@ -21,10 +22,13 @@ mod nearest;
 mod octahedral;
 mod points;
 mod round;
+mod rows;
 mod search;
 mod seed;
 mod split_merge;
 mod spread;
+mod table;
+mod tally;
 #[cfg(test)]
 mod testing;
 mod texels;
@@ -33,17 +37,20 @@ mod vicinity;
 
 pub use bound::fejes_toth_rms_rad;
 pub use dither::Dither;
+pub use rows::{Band, BandTexels, RowSource, Visit, quantize_rows};
 pub use search::quantize_within;
 pub use texels::Texels;
 
-use self::cells::Cells;
-use self::entries::Entries;
+use self::index::{Indexer, Rows};
 use self::nearest::Nearest;
-use self::points::{Gathered, NO_POINT, Points, gather};
-use crate::indexed::{IndexMap, MAX_ENTRIES, MaterialMap, MaterialSpan, NormalTable, QuantizedMap};
-use crate::measure::{AngleStats, angle_of_chord, angle_stats, weighted_angle_stats};
-use crate::normal::encode_u16;
-use crate::{Error, Grid, MipChain, Progress, Result, Space, par};
+use self::points::{Gathered, NO_POINT, gather};
+use self::table::{Made, error_of, gutter};
+use crate::indexed::{IndexMap, MAX_ENTRIES, MaterialMap, QuantizedMap};
+use crate::measure::AngleStats;
+use crate::{Error, Grid, Progress, Result, Space, par};
+
+/// Rows that are worked on together. Not part of the result.
+const BAND_ROWS: usize = 64;
 
 /// How much work the quantiser does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -127,38 +134,17 @@ pub fn quantize<'a, S: Space>(
     progress: &dyn Progress,
 ) -> Result<Quantized<S>> {
     let map = map.into();
-    let &Options { entries: count, effort, materials, covered, mip_levels, dither } = options;
-    if count == 0 || count as usize > MAX_ENTRIES {
-        return Err(Error::parameter("entries", count, format_args!("1 to {MAX_ENTRIES}")));
-    }
+    let &Options { entries: count, effort, materials, covered, .. } = options;
+    check_entries(count)?;
     materials.map_or(Ok(()), |m| map.expect_same_size("material map", m))?;
     covered.map_or(Ok(()), |c| map.expect_same_size("coverage mask", c))?;
 
     progress.begin("finding distinct normals", 1);
     let Gathered { points, mut class_of, point_of } = gather(map, materials, covered);
     progress.advance(1);
-    let in_use = points.groups.len();
-    if in_use == 0 {
-        return Err(Error::Missing { what: "covered texels", remedy: "give a coverage mask that is true somewhere" });
-    }
-    if in_use > count as usize {
-        let expected = format_args!("at least {in_use}, one for each material in use").to_string();
-        return Err(Error::parameter("entries", count, expected));
-    }
-
-    let (shaped, mut cells) = if count as usize >= points.len() {
-        let groups = points.groups.iter().map(|g| g.points.clone().map(|i| points.at(i)).collect());
-        let owners: Vec<u32> = (0..points.len() as u32).collect();
-        (Entries::from_groups(groups), Cells::new(&points, &owners, points.len()))
-    } else {
-        lloyd::shape(&points, count as usize, lloyd::Schedule::new(effort, count), progress)
-    };
-    let (table, entries, new_of) = finish_table::<S>(&points, shaped)?;
+    let Made { table, entries, owners } = table::make::<S>(&points, count, effort, progress)?;
 
     progress.begin("indexing texels", 1);
-    cells.renumber(&new_of);
-    cells.assign_exact(&entries);
-    let owners = cells.owners(points.len());
     let entry_of: Vec<u32> = point_of.iter().map(|&point| owners[point as usize]).collect();
     let nearest = Nearest::new(&entries);
     let group_of = |texel: usize| {
@@ -176,65 +162,34 @@ pub fn quantize<'a, S: Space>(
             };
         }
     });
-    let mut base: IndexMap = Grid::new(width, height, class_of.into_iter().map(|i| i as u16).collect())?;
-    let normal = |texel: usize| map.normal(texel).vec().to_array();
-    dither::dither(dither, &mut base, normal, covered, &entries, &nearest);
+    let base: IndexMap = Grid::new(width, height, class_of.into_iter().map(|i| i as u16).collect())?;
     progress.advance(1);
 
-    let indices = if mip_levels {
-        progress.begin("building mip levels", 1);
-        let levels = mip::mip_chain(&map.decoded(), base, covered, &entries, &nearest)?;
-        progress.advance(1);
-        levels
-    } else {
-        mip::Levels { chain: MipChain::single(base), errors: Vec::new() }
-    };
-    let quantized = QuantizedMap::new(table, indices.chain)?;
-    let error = match dither {
-        Dither::None => error_of(&points, &entries, &owners),
-        _ => angle_stats(&map.decoded(), &quantized.expand(), covered)?,
-    };
+    let mut indexer = Indexer::new(base, options, &entries, &nearest, false);
+    if indexer.needs_rows() {
+        progress.begin("dithering, smaller levels", height.into());
+        for first in (0..height).step_by(BAND_ROWS) {
+            let rows = first as usize..(first as usize + BAND_ROWS).min(height as usize);
+            let texels = rows.start * width as usize..rows.end * width as usize;
+            let covered = covered.map(|c| &c.texels()[texels.clone()]);
+            indexer.push(&Rows { first: texels.start, normals: &map.decoded(texels), covered });
+            progress.advance(rows.len() as u64);
+        }
+    }
+    let indexed = indexer.finish()?;
+    let error = indexed.error.unwrap_or_else(|| error_of(&points, &entries, &owners));
     Ok(Quantized {
-        map: quantized,
+        map: QuantizedMap::new(table, indexed.chain)?,
         error,
-        level_errors: indices.errors,
+        level_errors: indexed.level_errors,
         zador_rms_rad: bound::zador_rms_rad(&points, entries.len()),
         distinct: points.len(),
     })
 }
 
-/// The angular error over all covered texels: over the points, each as often as it occurs.
-fn error_of(points: &Points, entries: &Entries, owners: &[u32]) -> AngleStats {
-    let angles = par::map_range(points.len(), |i| {
-        let chord2 = entries::squared_f64(points.at(i).map(f64::from), entries.directions[owners[i] as usize]);
-        (angle_of_chord(chord2), points.weight[i] as u64)
-    });
-    weighted_angle_stats(&angles)
-}
-
-/// The entry of a texel that is not covered: the nearest of its group, or of all if it has none.
-fn gutter(entries: &Entries, nearest: &Nearest, group: Option<usize>, normal: [f32; 3]) -> u32 {
-    let direction = normal.map(f64::from);
-    let find = |group| nearest.find(group, direction, None);
-    let distance = |&e: &u32| entries::squared_f64(direction, entries.directions[e as usize]);
-    let of_any = || (0..entries.spans.len()).map(find).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    group.map(find).or_else(of_any).unwrap_or(0)
-}
-
-/// Rounds the entries to what files hold and puts them in table order; the last result is the new number of each.
-fn finish_table<S: Space>(points: &Points, shaped: Entries) -> Result<(NormalTable<S>, Entries, Vec<u32>)> {
-    let mut normals = Vec::with_capacity(shaped.len());
-    let mut spans = Vec::with_capacity(points.groups.len());
-    let mut new_of = vec![0; shaped.len()];
-    for (group, span) in points.groups.iter().zip(&shaped.spans) {
-        let mut part: Vec<_> = span.clone().map(|e| (round::storable::<S>(shaped.directions[e]), e)).collect();
-        part.sort_by_cached_key(|&(n, _)| (octahedral::hilbert(n.vec().to_array()), encode_u16(n)));
-        for (normal, old) in part {
-            new_of[old] = normals.len() as u32;
-            normals.push(normal);
-        }
-        spans.push(MaterialSpan { material: group.material, entries: span.start as u32..span.end as u32 });
+fn check_entries(count: u32) -> Result<()> {
+    if count == 0 || count as usize > MAX_ENTRIES {
+        return Err(Error::parameter("entries", count, format_args!("1 to {MAX_ENTRIES}")));
     }
-    let entries = Entries { directions: normals.iter().map(|n| n.vec().to_array()).collect(), spans: shaped.spans };
-    Ok((NormalTable::with_materials(normals, spans)?, entries, new_of))
+    Ok(())
 }

@@ -7,10 +7,11 @@
 use std::ops::Range;
 
 use super::colors::{self, Colors};
+use super::entries::unit;
 use super::octahedral::{MORTON_CODE_BITS, morton};
 use super::texels::Texels;
 use crate::normal::decode_u8;
-use crate::{Grid, MaterialMap, Normal, NormalMap, Space, par};
+use crate::{Grid, MaterialMap, Normal, Space, par};
 
 /// How many points the kernels handle side by side; the arrays are padded by as many.
 pub(super) const LANES: usize = 8;
@@ -59,6 +60,24 @@ impl Points {
         }
         all.pad();
         all
+    }
+
+    /// Points from (material, direction, texels) in any order; no two may be equal.
+    pub(super) fn sorted(found: impl Iterator<Item = (u8, [f32; 3], u32)>) -> Self {
+        let key = |(material, d, count): (u8, [f32; 3], u32)| (material, morton(d), d.map(f32::to_bits), count);
+        let mut keys: Vec<_> = found.map(key).collect();
+        par::sort_unstable(&mut keys);
+        let point = |&(_, _, bits, count): &(u8, u64, [u32; 3], u32)| (bits.map(f32::from_bits), count as f32);
+        let groups = keys.chunk_by(|a, b| a.0 == b.0);
+        Self::new(groups.map(|group| (group[0].0, group.iter().map(point).collect())))
+    }
+
+    /// Point `i` as a unit vector.
+    pub(super) fn unit(&self, i: usize) -> [f32; 3] {
+        let p = self.at(i);
+        let length2 = super::entries::squared_f64([0.0; 3], p);
+        // Most are unit vectors already, and stay what they are to the bit.
+        if (length2 - 1.0).abs() < 1e-6 { p } else { unit(p.map(f64::from)).unwrap_or(p) }
     }
 
     fn push(&mut self, [x, y, z]: [f32; 3], weight: f32) {
@@ -128,7 +147,7 @@ pub(super) struct Gathered {
 }
 
 /// What makes two normals the same. −0 equals 0.
-fn identity<S: Space>(normal: Normal<S>) -> [u32; 3] {
+pub(super) fn identity<S: Space>(normal: Normal<S>) -> [u32; 3] {
     normal.vec().to_array().map(|c| (c + 0.0).to_bits())
 }
 
@@ -145,12 +164,18 @@ pub(super) fn gather<S: Space>(
 ) -> Gathered {
     match (texels, materials) {
         (Texels::Rgb8(codes), None) => of_colors::<S>(codes, covered),
-        _ => of_texels(&texels.decoded(), materials, covered),
+        _ => of_texels(&texels.decoded(0..texels.len()), materials, covered),
     }
 }
 
 fn of_colors<S: Space>(codes: &Grid<[u8; 3]>, covered: Option<&Grid<bool>>) -> Gathered {
     let Colors { distinct, counts, rank_of } = colors::distinct(codes.texels(), covered.map(Grid::texels));
+    let (points, point_of) = of_counted_colors::<S>(&distinct, &counts);
+    Gathered { points, class_of: rank_of, point_of }
+}
+
+/// The points of distinct colours that occur so often, and the point of each.
+pub(super) fn of_counted_colors<S: Space>(distinct: &[[u8; 3]], counts: &[u32]) -> (Points, Vec<u32>) {
     let normals = par::map_range(distinct.len(), |rank| decode_u8::<S>(distinct[rank]));
     let mut keys = par::map_range(distinct.len(), |rank| key(normals[rank], rank));
     par::sort_unstable(&mut keys);
@@ -159,15 +184,18 @@ fn of_colors<S: Space>(codes: &Grid<[u8; 3]>, covered: Option<&Grid<bool>>) -> G
     if !keys.is_empty() {
         points.add_group(0, &keys, |rank| identity(normals[rank]), |rank, point| point_of[rank] = point);
     }
-    for (&point, count) in point_of.iter().zip(counts) {
+    for (&point, &count) in point_of.iter().zip(counts) {
         points.weight[point as usize] += count as f32;
     }
     points.pad();
-    Gathered { points, class_of: rank_of, point_of }
+    (points, point_of)
 }
 
-fn of_texels<S: Space>(map: &NormalMap<S>, materials: Option<&MaterialMap>, covered: Option<&Grid<bool>>) -> Gathered {
-    let texels = map.texels();
+fn of_texels<S: Space>(
+    texels: &[Normal<S>],
+    materials: Option<&MaterialMap>,
+    covered: Option<&Grid<bool>>,
+) -> Gathered {
     let is_covered = |texel: usize| covered.is_none_or(|c| c.texels()[texel]);
     let material_of = |texel: usize| materials.map_or(0, |m| m.texels()[texel]);
     let same = |a: usize, b: usize| texels[a] == texels[b] && material_of(a) == material_of(b);
@@ -229,7 +257,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::Object;
+    use crate::{NormalMap, Object};
 
     fn map(directions: &[[f32; 3]]) -> NormalMap<Object> {
         let normals = directions.iter().map(|&d| Normal::new(Vec3::from_array(d)).unwrap()).collect();

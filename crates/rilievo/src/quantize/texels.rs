@@ -1,9 +1,10 @@
 //! What is quantised: normals, or the 24-bit colours that stand for them.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use crate::normal::decode_u8;
-use crate::{Grid, Normal, NormalMap, Result, Space};
+use crate::{Grid, Normal, NormalMap, Result, Space, par};
 
 /// A normal map to quantise, in the form it is at hand. `&NormalMap` and `&Grid<[u8; 3]>` turn into it by themselves.
 #[derive(Debug)]
@@ -44,6 +45,12 @@ impl<'a, S: Space> Texels<'a, S> {
         }
     }
 
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        let (width, height) = self.size();
+        width as usize * height as usize
+    }
+
     /// The normal of a texel, by its number in reading order.
     pub(super) fn normal(&self, texel: usize) -> Normal<S> {
         match self {
@@ -60,11 +67,16 @@ impl<'a, S: Space> Texels<'a, S> {
         }
     }
 
-    /// As unit vectors.
-    pub(super) fn decoded(&self) -> Cow<'a, NormalMap<S>> {
+    /// Some texels as unit vectors.
+    pub(super) fn decoded(&self, texels: Range<usize>) -> Cow<'a, [Normal<S>]> {
         match self {
-            Self::Normals(map) => Cow::Borrowed(map),
-            Self::Rgb8(codes) => Cow::Owned(codes.map(|&c| decode_u8(c))),
+            Self::Normals(map) => Cow::Borrowed(&map.texels()[texels]),
+            Self::Rgb8(codes) => Cow::Owned(decode_all(&codes.texels()[texels])),
         }
     }
+}
+
+/// Normals of colours.
+pub(super) fn decode_all<S: Space>(codes: &[[u8; 3]]) -> Vec<Normal<S>> {
+    par::map_range(codes.len(), |i| decode_u8(codes[i]))
 }

@@ -1,26 +1,31 @@
 //! Each texel draws one of the three entries around its normal, with a blue-noise mask for a die.
 
 use super::triangles::Triangles;
-use super::{Source, dot, sub};
+use super::{Rows, Table, dot, sub};
 use crate::normal::BlueNoise;
-use crate::{IndexMap, par};
+use crate::{Space, par};
 
 /// Replaces nearest entries by drawn ones.
 ///
 /// The three entries are the corners of the Delaunay triangle that holds the normal, each drawn as often as its
 /// barycentric weight says: the mean over the mask is the normal itself. Corners are ordered by table index, which
 /// follows a Hilbert curve, so that texels next to each other cut the mask at like places.
-pub(super) fn choose<F: Fn(usize) -> [f32; 3] + Sync>(source: &Source<'_, F>, indices: &mut IndexMap) {
-    let triangles = Triangles::new(source.entries, source.nearest);
+pub(super) fn choose<S: Space>(
+    table: &Table<'_>,
+    triangles: &Triangles,
+    rows: &Rows<'_, S>,
+    width: usize,
+    slots: &mut [u16],
+) {
     let mask = BlueNoise::get();
-    let width = indices.width() as usize;
-    par::for_each_row(indices.texels_mut(), width, |y, row| {
-        for (x, slot) in row.iter_mut().enumerate() {
+    let top = rows.first / width;
+    par::for_each_row(slots, width, |y, slots| {
+        for (x, slot) in slots.iter_mut().enumerate() {
             let texel = y * width + x;
-            if source.dithered_group(texel, *slot).is_some() {
-                let (own, normal) = (u32::from(*slot), source.normal(texel));
-                let threshold = f64::from(mask.threshold(x, y));
-                let mut around = triangles.around(normal, own).unwrap_or_else(|| edge(source, normal, own));
+            if table.dithered_group(rows, texel, *slot).is_some() {
+                let (own, normal) = (u32::from(*slot), rows.direction(texel));
+                let threshold = f64::from(mask.threshold(x, top + y));
+                let mut around = triangles.around(normal, own).unwrap_or_else(|| edge(table, normal, own));
                 around.sort_unstable_by_key(|a| a.0);
                 let [a, b, c] = around;
                 let drawn = if threshold < a.1 {
@@ -38,13 +43,13 @@ pub(super) fn choose<F: Fn(usize) -> [f32; 3] + Sync>(source: &Source<'_, F>, in
 
 /// Where no triangle holds a normal (beyond the outermost entries, or where entries lie in a line): the nearest entry
 /// and the one across, weighted by the foot of the normal on the line between them.
-fn edge<F: Fn(usize) -> [f32; 3] + Sync>(source: &Source<'_, F>, normal: [f64; 3], own: u32) -> [(u32, f64); 3] {
-    let from = source.direction(own).map(f64::from);
+fn edge(table: &Table<'_>, normal: [f64; 3], own: u32) -> [(u32, f64); 3] {
+    let from = table.direction(own).map(f64::from);
     let twice = 2.0 * dot(normal, from);
     let mirrored = sub(normal.map(|c| c * twice), from);
-    let group = usize::from(source.group_of[own as usize]);
-    let other = source.nearest.find(group, mirrored, Some((own, source.direction(own))));
-    let along = sub(source.direction(other).map(f64::from), from);
+    let group = usize::from(table.group_of[own as usize]);
+    let other = table.nearest.find(group, mirrored, Some((own, table.direction(own))));
+    let along = sub(table.direction(other).map(f64::from), from);
     let length2 = dot(along, along);
     let weight = if length2 > 0.0 { (dot(sub(normal, from), along) / length2).clamp(0.0, 1.0) } else { 0.0 };
     [(own, 1.0 - weight), (other, weight), (u32::MAX, 0.0)]

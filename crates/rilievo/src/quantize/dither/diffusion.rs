@@ -1,7 +1,7 @@
 //! Error diffusion (Floyd and Steinberg 1976) with errors that are differences of vectors.
 
-use super::{Source, dot, sub};
-use crate::{IndexMap, par};
+use super::{Rows, Table, dot, sub};
+use crate::{Normal, Space, par};
 
 /// Errors are cut to so many times the distance between an entry and its neighbour.
 ///
@@ -18,48 +18,112 @@ const MOST_ERROR: f64 = 2.0;
 /// Errors that have no way on (at the border of the map, of a material, of gutter) go to the other neighbours in
 /// proportion instead of being dropped: with materials in patches of 5 × 5 texels the bunny's errors after a low-pass
 /// are 1.18° instead of 1.40° (256 entries; 4.37° undithered).
-pub(super) fn diffuse<F: Fn(usize) -> [f32; 3] + Sync>(source: &Source<'_, F>, indices: &mut IndexMap) {
-    let (width, height) = (indices.width() as usize, indices.height() as usize);
-    let most_error = most_errors(source);
-    let texels = indices.texels_mut();
-    let (mut here, mut below) = (vec![[0.0; 3]; width], vec![[0.0; 3]; width]);
-    for y in 0..height {
-        let leftwards = y % 2 == 1;
+pub(super) struct Diffusion<S> {
+    width: usize,
+    height: usize,
+    most_error: Vec<f64>,
+    /// Errors carried to the next row to be done, and to the one below it.
+    here: Vec<[f64; 3]>,
+    below: Vec<[f64; 3]>,
+    /// The next row to be done. A row needs to know which texels below it take errors.
+    y: usize,
+    /// Texels from that row on: normals, which of them are covered, and which take errors of which group.
+    normals: Vec<Normal<S>>,
+    covered: Vec<bool>,
+    open: Vec<Option<u8>>,
+}
+
+impl<S: Space> Diffusion<S> {
+    pub(super) fn new((width, height): (u32, u32), table: &Table<'_>) -> Self {
+        let (width, height) = (width as usize, height as usize);
+        let carried = vec![[0.0; 3]; width];
+        Self {
+            width,
+            height,
+            most_error: most_errors(table),
+            here: carried.clone(),
+            below: carried,
+            y: 0,
+            normals: Vec::new(),
+            covered: Vec::new(),
+            open: Vec::new(),
+        }
+    }
+
+    /// Takes the next rows; `texels` are those of the whole map.
+    pub(super) fn push(
+        &mut self,
+        table: &Table<'_>,
+        rows: &Rows<'_, S>,
+        texels: &mut [u16],
+        done: &mut dyn FnMut(Rows<'_, S>, &[u16]),
+    ) {
+        let count = rows.normals.len();
+        self.normals.extend_from_slice(rows.normals);
+        self.covered.extend((0..count).map(|i| rows.is_covered(i)));
+        let nearest = &texels[rows.first..][..count];
+        self.open.extend(par::map_range(count, |i| table.dithered_group(rows, i, nearest[i])));
+        let (width, first) = (self.width, self.y);
+        loop {
+            let start = (self.y - first) * width;
+            let known = (self.open.len() - start) / width;
+            // The last row of the map has none below it.
+            if known < 2 && (known == 0 || self.y + 1 < self.height) {
+                break;
+            }
+            let map_row = self.y * width..(self.y + 1) * width;
+            self.diffuse_row(table, start, &mut texels[map_row.clone()]);
+            let own = start..start + width;
+            let (normals, covered) = (&self.normals[own.clone()], Some(&self.covered[own]));
+            done(Rows { first: map_row.start, normals, covered }, &texels[map_row]);
+            self.y += 1;
+        }
+        let used = (self.y - first) * width;
+        self.normals.drain(..used);
+        self.covered.drain(..used);
+        self.open.drain(..used);
+    }
+
+    /// Does row `y`, which begins at `start` of what is kept.
+    fn diffuse_row(&mut self, table: &Table<'_>, start: usize, slots: &mut [u16]) {
+        let Self { width, y, here, below, .. } = self;
+        let (width, leftwards) = (*width, *y % 2 == 1);
+        let open = &self.open[start..][..width];
+        let open_below = self.open.get(start + width..start + 2 * width).unwrap_or(&[]);
         for step in 0..width {
             let x = if leftwards { width - 1 - step } else { step };
-            let texel = y * width + x;
-            let Some(group) = source.dithered_group(texel, texels[texel]) else { continue };
-            let (own, normal) = (u32::from(texels[texel]), source.normal(texel));
+            let Some(group) = open[x] else { continue };
+            let own = u32::from(slots[x]);
+            let normal = self.normals[start + x].vec().to_array().map(f64::from);
             // Back to the sphere first: length is nothing that an entry could pay back.
             let target = toward(normal, here[x]);
-            let entry = source.nearest.find(usize::from(group), target, Some((own, source.direction(own))));
-            texels[texel] = entry as u16;
+            let entry = table.nearest.find(usize::from(group), target, Some((own, table.direction(own))));
+            slots[x] = entry as u16;
 
-            let error = sub(target, source.direction(entry).map(f64::from));
-            let error = cut(error, most_error[entry as usize]);
+            let error = sub(target, table.direction(entry).map(f64::from));
+            let error = cut(error, self.most_error[entry as usize]);
             let (ahead, behind) = if leftwards { (x.wrapping_sub(1), x + 1) } else { (x + 1, x.wrapping_sub(1)) };
-            let ways = [(ahead, y, 7.0), (behind, y + 1, 3.0), (x, y + 1, 5.0), (ahead, y + 1, 1.0)];
-            let is_open = |&(x, y, _): &(usize, usize, f64)| {
-                // Texels that are still to come have their nearest entries, which are of the same material.
-                let is_there = x < width && y < height;
-                is_there && source.dithered_group(y * width + x, texels[y * width + x]) == Some(group)
+            let ways = [(ahead, false, 7.0), (behind, true, 3.0), (x, true, 5.0), (ahead, true, 1.0)];
+            let is_open = |&(to, is_below, _): &(usize, bool, f64)| {
+                let row = if is_below { open_below } else { open };
+                row.get(to) == Some(&Some(group))
             };
             let total: f64 = ways.iter().filter(|way| is_open(way)).map(|way| way.2).sum();
-            for (to, row, weight) in ways.into_iter().filter(is_open) {
-                let carried = if row == y { &mut here[to] } else { &mut below[to] };
+            for (to, is_below, weight) in ways.into_iter().filter(is_open) {
+                let carried = if is_below { &mut below[to] } else { &mut here[to] };
                 *carried = [0, 1, 2].map(|k| carried[k] + error[k] * (weight / total));
             }
         }
-        std::mem::swap(&mut here, &mut below);
+        std::mem::swap(here, below);
         below.fill([0.0; 3]);
     }
 }
 
 /// The largest error that each entry may leave.
-fn most_errors<F: Fn(usize) -> [f32; 3] + Sync>(source: &Source<'_, F>) -> Vec<f64> {
-    par::map_range(source.group_of.len(), |entry| {
-        let (group, direction) = (usize::from(source.group_of[entry]), source.direction(entry as u32));
-        let neighbour = source.nearest.neighbour(group, entry as u32, direction);
+fn most_errors(table: &Table<'_>) -> Vec<f64> {
+    par::map_range(table.group_of.len(), |entry| {
+        let (group, direction) = (usize::from(table.group_of[entry]), table.direction(entry as u32));
+        let neighbour = table.nearest.neighbour(group, entry as u32, direction);
         neighbour.map_or(0.0, |(_, distance2)| MOST_ERROR * distance2.sqrt())
     })
 }

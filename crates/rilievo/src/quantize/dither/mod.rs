@@ -8,9 +8,12 @@ mod blue_noise;
 mod diffusion;
 mod triangles;
 
+use self::diffusion::Diffusion;
+use self::triangles::Triangles;
 use super::entries::{Entries, squared_f64};
+use super::index::Rows;
 use super::nearest::Nearest;
-use crate::{Grid, IndexMap};
+use crate::{IndexMap, Space};
 
 /// How texels choose their entries.
 ///
@@ -37,51 +40,69 @@ pub enum Dither {
 const EXACT: f64 = 1e-4;
 
 /// What both methods read.
-struct Source<'a, F> {
-    /// The normal of a texel, by its place in the map.
-    normal: F,
-    covered: Option<&'a Grid<bool>>,
+struct Table<'a> {
     entries: &'a Entries,
     nearest: &'a Nearest,
     /// Which group (material) each entry belongs to.
     group_of: Vec<u8>,
 }
 
-impl<F: Fn(usize) -> [f32; 3] + Sync> Source<'_, F> {
-    fn normal(&self, texel: usize) -> [f64; 3] {
-        (self.normal)(texel).map(f64::from)
-    }
-
+impl Table<'_> {
     fn direction(&self, entry: u32) -> [f32; 3] {
         self.entries.directions[entry as usize]
     }
 
-    /// The group of a texel whose nearest entry is `own`; `None` if it keeps that entry.
+    /// The group of texel `i` of `rows` whose nearest entry is `own`; `None` if it keeps that entry.
     ///
     /// Gutter does, and so do normals that stand in the table up to its rounding: flat parts stay flat, whatever is
     /// beside them.
-    fn dithered_group(&self, texel: usize, own: u16) -> Option<u8> {
-        let is_covered = self.covered.is_none_or(|c| c.texels()[texel]);
-        let is_exact = || squared_f64(self.normal(texel), self.direction(own.into())) <= EXACT * EXACT;
-        (is_covered && !is_exact()).then(|| self.group_of[usize::from(own)])
+    fn dithered_group<S: Space>(&self, rows: &Rows<'_, S>, i: usize, own: u16) -> Option<u8> {
+        let is_exact = || squared_f64(rows.direction(i), self.direction(own.into())) <= EXACT * EXACT;
+        (rows.is_covered(i) && !is_exact()).then(|| self.group_of[usize::from(own)])
     }
 }
 
-/// Dithers an index map whose texels have their nearest entries. `normal` gives the normal of a texel.
-pub(super) fn dither(
-    method: Dither,
-    indices: &mut IndexMap,
-    normal: impl Fn(usize) -> [f32; 3] + Sync,
-    covered: Option<&Grid<bool>>,
-    entries: &Entries,
-    nearest: &Nearest,
-) {
-    let group_of = entries.spans.iter().zip(0u8..=255).flat_map(|(span, group)| span.clone().map(move |_| group));
-    let source = Source { normal, covered, entries, nearest, group_of: group_of.collect() };
-    match method {
-        Dither::None => {}
-        Dither::Diffusion => diffusion::diffuse(&source, indices),
-        Dither::BlueNoise => blue_noise::choose(&source, indices),
+/// Dithers an index map whose rows come from the top and whose texels have their nearest entries.
+pub(super) struct Ditherer<'a, S> {
+    table: Table<'a>,
+    method: Method<S>,
+}
+
+enum Method<S> {
+    None,
+    Diffusion(Diffusion<S>),
+    BlueNoise(Triangles),
+}
+
+impl<'a, S: Space> Ditherer<'a, S> {
+    pub(super) fn new(method: Dither, size: (u32, u32), entries: &'a Entries, nearest: &'a Nearest) -> Self {
+        let table = Table { entries, nearest, group_of: entries.groups() };
+        let method = match method {
+            Dither::None => Method::None,
+            Dither::Diffusion => Method::Diffusion(Diffusion::new(size, &table)),
+            Dither::BlueNoise => Method::BlueNoise(Triangles::new(entries, nearest)),
+        };
+        Self { table, method }
+    }
+
+    /// Takes the next rows; tells `done` of rows whose entries will not change any more, and of these entries.
+    pub(super) fn push(
+        &mut self,
+        rows: &Rows<'_, S>,
+        indices: &mut IndexMap,
+        done: &mut dyn FnMut(Rows<'_, S>, &[u16]),
+    ) {
+        let width = indices.width() as usize;
+        let texels = indices.texels_mut();
+        let own = rows.first..rows.first + rows.normals.len();
+        match &mut self.method {
+            Method::None => {}
+            Method::Diffusion(diffusion) => return diffusion.push(&self.table, rows, texels, done),
+            Method::BlueNoise(triangles) => {
+                blue_noise::choose(&self.table, triangles, rows, width, &mut texels[own.clone()]);
+            }
+        }
+        done(*rows, &texels[own]);
     }
 }
 
