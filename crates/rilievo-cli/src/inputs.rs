@@ -6,9 +6,12 @@ use anyhow::Result;
 use rilievo::color::Picture;
 use rilievo::height::HeightMap;
 use rilievo::{Convention, Grid, MaterialMap, Space};
-use rilievo_io::{AnyIndexed, EmbeddedMaterials, ImportAs, IndexedFile, Limits, NormalImage, Source};
+use rilievo_io::{AnyIndexed, EmbeddedMaterials, ImportAs, IndexedFile, Limits, NormalImage, NormalRows, Source};
 
 use crate::exit;
+
+/// Up to here (4096 × 4096) a map is read as a whole: its texels are decoded only once.
+const LARGE_TEXELS: u64 = 1 << 24;
 
 /// Opens a file, or stdin for `-`.
 pub(crate) fn open(path: &Path) -> Result<Source> {
@@ -30,6 +33,25 @@ pub(crate) fn normals<S: Space>(path: &Path, convention: Convention, repair: boo
     let image = decode(&source, convention, &Limits::default())?;
     tell(&source, &image.warnings);
     Ok(image)
+}
+
+/// Opens a normal map that is better read row by row; `None` for all others.
+pub(crate) fn large_normals(path: &Path, convention: Convention) -> Result<Option<NormalRows>> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let rows = NormalRows::open(path, convention, &Limits::default())?;
+    Ok(rows.filter(|rows| {
+        let (width, height) = rows.size();
+        u64::from(width) * u64::from(height) > LARGE_TEXELS
+    }))
+}
+
+/// Tells what was found on the way.
+pub(crate) fn tell_of(rows: &NormalRows) {
+    for warning in rows.warnings() {
+        exit::warn(rows.name(), warning);
+    }
 }
 
 /// Reads a normal map that holds its materials.

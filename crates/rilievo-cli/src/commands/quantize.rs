@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
-use rilievo::quantize::{self, Options, Quantized, fejes_toth_rms_rad};
+use rilievo::quantize::{self, Band, Options, Quantized, RowSource, Visit, fejes_toth_rms_rad};
 use rilievo::{MaterialMap, Object, Space, Tangent};
 use rilievo_io as io;
-use rilievo_io::SpaceKind;
+use rilievo_io::{NormalRows, SpaceKind};
 
 use crate::args::{ConventionArg, DitherArg, EffortArg, MaterialsInArg, SpaceArg};
 use crate::exit::{Outcome, remark, usage, warn};
@@ -28,6 +28,10 @@ Examples:
 
 An indexed PNG (K up to 256) shows its normals in any viewer and is relit by rewriting its palette. KTX2 holds any K,
 with all mip levels; --no-mips leaves them out.
+
+A PNG of more than 16 million texels (8 or 16 bits of RGB or RGBA, not interlaced) is read twice, some rows at a time, and
+takes 2 to 3 bytes of memory per texel; other formats, --max-rms and --materials-in need all of it in memory,
+some 40 bytes per texel.
 
 --dither is for small tables: above some 2048 entries facets are hardly seen, and it hardly pays. Files grow (1.5 times at
 K = 2048, 3 times at 256). Only full-size texels are dithered; smaller mip levels take their nearest entries. rms_deg is
@@ -108,6 +112,10 @@ impl FileKind {
         if entries <= PALETTE_ENTRIES { Self::Png } else { Self::Ktx2 }
     }
 
+    fn most_entries(self) -> u32 {
+        if self == Self::Png { PALETTE_ENTRIES } else { 65_536 }
+    }
+
     fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -142,46 +150,25 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 
 fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
     let kind = FileKind::of(output, if args.max_rms.is_some() { 1 } else { args.entries })?;
-    let (image, materials): (_, Option<MaterialMap>) = match args.materials_in {
-        Some(place) => {
-            let (image, materials) = inputs::normals_with_materials::<S>(input, args.convention.into(), place.into())?;
-            (image, Some(materials))
-        }
-        None => {
-            let image = inputs::normals::<S>(input, args.convention.into(), args.repair)?;
-            (image, args.materials.as_deref().map(inputs::materials).transpose()?)
-        }
-    };
-    let most = if kind == FileKind::Png { PALETTE_ENTRIES } else { 65_536 };
-    let options = Options {
-        entries: args.max_rms.map_or(args.entries, |_| most),
-        effort: args.effort.into(),
-        materials: materials.as_ref(),
-        covered: image.covered.as_ref(),
-        mip_levels: kind == FileKind::Ktx2 && !args.no_mips,
-        dither: args.dither.into(),
-    };
     let started = Instant::now();
     let progress = Bars::new(input.display().to_string());
-    let quantized = match args.max_rms {
-        None => quantize::quantize(image.texels(), &options, &progress)?,
-        Some(degrees) => {
-            let found = quantize::quantize_within(image.texels(), degrees.to_radians(), &options, &progress)?;
-            let Some(quantized) = found else {
-                warn(
-                    &input.display().to_string(),
-                    &format!("no table of up to {most} entries reaches {degrees} degrees RMS; nothing is written"),
-                );
-                return Ok(Outcome::Negative);
-            };
-            quantized
+    let quantized = match inputs::large_normals(input, args.convention.into())? {
+        Some(rows) if args.max_rms.is_none() && args.materials_in.is_none() => {
+            Some(by_rows::<S>(args, kind, rows, &progress)?)
         }
+        _ => whole::<S>(args, kind, input, &progress)?,
     };
-    let seconds = started.elapsed().as_secs_f64();
+    let Some(quantized) = quantized else {
+        let (most, degrees) = (kind.most_entries(), args.max_rms.unwrap_or_default());
+        let reason = format!("no table of up to {most} entries reaches {degrees} degrees RMS; nothing is written");
+        warn(&input.display().to_string(), &reason);
+        return Ok(Outcome::Negative);
+    };
     let entries = quantized.map.table().len();
     if args.max_rms.is_none() && entries < args.entries as usize {
         remark(format!("{}: only {entries} distinct normals, so the table has {entries} entries", input.display()));
     }
+    let seconds = started.elapsed().as_secs_f64();
     let bytes = match kind {
         FileKind::Png => progress.step("packing", || io::encode_indexed_png(&quantized.map, args.convention.into()))?,
         FileKind::Ktx2 => progress.step("packing", || io::encode_ktx2(&quantized.map, args.convention.into()))?,
@@ -192,6 +179,75 @@ fn convert<S: Space>(args: &Args, input: &Path, output: &Path) -> Result<Outcome
         report(&quantized, output, bytes.len(), seconds).print(args.json)?;
     }
     Ok(Outcome::Done)
+}
+
+/// What is asked for, without what comes from files.
+fn options(args: &Args, kind: FileKind) -> Options<'static> {
+    Options {
+        entries: args.max_rms.map_or(args.entries, |_| kind.most_entries()),
+        effort: args.effort.into(),
+        materials: None,
+        covered: None,
+        mip_levels: kind == FileKind::Ktx2 && !args.no_mips,
+        dither: args.dither.into(),
+    }
+}
+
+/// Quantises a map in memory; `None` if no table is good enough.
+fn whole<S: Space>(args: &Args, kind: FileKind, input: &Path, progress: &Bars) -> Result<Option<Quantized<S>>> {
+    let (image, materials): (_, Option<MaterialMap>) = match args.materials_in {
+        Some(place) => {
+            let (image, materials) = inputs::normals_with_materials::<S>(input, args.convention.into(), place.into())?;
+            (image, Some(materials))
+        }
+        None => {
+            let image = inputs::normals::<S>(input, args.convention.into(), args.repair)?;
+            (image, args.materials.as_deref().map(inputs::materials).transpose()?)
+        }
+    };
+    let (materials, covered) = (materials.as_ref(), image.covered.as_ref());
+    let options = Options { materials, covered, ..options(args, kind) };
+    Ok(match args.max_rms {
+        None => Some(quantize::quantize(image.texels(), &options, progress)?),
+        Some(degrees) => quantize::quantize_within(image.texels(), degrees.to_radians(), &options, progress)?,
+    })
+}
+
+/// Quantises a map that is read twice, a band of rows at a time.
+fn by_rows<S: Space>(args: &Args, kind: FileKind, rows: NormalRows, progress: &Bars) -> Result<Quantized<S>> {
+    let materials = args.materials.as_deref().map(inputs::materials).transpose()?;
+    let mut source = LargeMap { rows, materials };
+    let quantized = quantize::quantize_rows(&mut source, &options(args, kind), progress)?;
+    inputs::tell_of(&source.rows);
+    Ok(quantized)
+}
+
+/// A large normal map with its materials, which take a byte per texel.
+struct LargeMap {
+    rows: NormalRows,
+    materials: Option<MaterialMap>,
+}
+
+impl<S: Space> RowSource<S> for LargeMap {
+    type Error = anyhow::Error;
+
+    fn size(&self) -> (u32, u32) {
+        self.rows.size()
+    }
+
+    fn rows(&mut self, visit: &mut Visit<'_, S, anyhow::Error>) -> Result<()> {
+        let Some(materials) = &self.materials else { return self.rows.read(visit) };
+        let (expected, actual) = (self.rows.size(), materials.size());
+        if expected != actual {
+            return Err(rilievo::Error::SizeMismatch { what: "material map", expected, actual }.into());
+        }
+        let mut done = 0;
+        self.rows.read(|band| {
+            let part = done..done + band.texels.count();
+            done = part.end;
+            visit(Band { materials: Some(&materials.texels()[part]), ..band })
+        })
+    }
 }
 
 fn report<S: Space>(quantized: &Quantized<S>, output: &Path, bytes: usize, seconds: f64) -> Report {

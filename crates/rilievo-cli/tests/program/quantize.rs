@@ -174,3 +174,28 @@ fn materials_can_come_from_the_colours() {
     assert!(map.expand().texels().iter().all(|n| n.vec().z > 0.99));
     room.run("quantize n.png --materials-in alpha -n 8 -o q.png").fails(4, &["n.png", "alpha"]);
 }
+
+/// More than 2²⁴ texels: read row by row, twice.
+#[test]
+fn large_maps_come_out_like_their_tiles() {
+    let room = Room::new();
+    let tile = rilievo::Grid::from_fn(256, 64, |x, y| [x as u8, 2 * y as u8 + 60, 230]).unwrap();
+    let large = rilievo::Grid::from_fn(8192, 2050, |x, y| tile[(x % 256, y % 64)]).unwrap();
+    // 2048 rows are 32 whole tiles; the last two rows are not covered.
+    let covered = rilievo::Grid::from_fn(8192, 2050, |_, y| y < 2048).unwrap();
+    let materials = rilievo::Grid::from_fn(8192, 2050, |x, _| (x / 128 % 2) as u8).unwrap();
+    room.write("tile.png", &rilievo_io::encode_normals_png8(&tile, None).unwrap());
+    room.write("large.png", &rilievo_io::encode_normals_png8(&large, Some(&covered)).unwrap());
+    room.write("m.png", &rilievo_io::encode_gray_png8(&materials).unwrap());
+    let small = room.run("quantize tile.png -n 32 --json").ok().json();
+    let said = room.run("quantize large.png -n 32 --json").ok();
+    assert!(said.stderr.contains("unit length"), "{}", said.stderr);
+    let rms = |v: &serde_json::Value| v["rms_deg"].as_f64().unwrap();
+    assert!((rms(&said.json()) / rms(&small) - 1.0).abs() < 1e-6, "{small} {}", said.json());
+    room.run("quantize large.png --materials m.png -n 32 -o m32.png").ok();
+    let file = rilievo_io::Source::open(&room.path("m32.png"), &Default::default()).unwrap();
+    let file = rilievo_io::decode_indexed(&file, &Default::default(), &Default::default()).unwrap();
+    let rilievo_io::AnyIndexed::Tangent(map) = file.map else { panic!("tangent space went in") };
+    assert_eq!(map.expand_materials(), materials);
+    room.run("quantize large.png --materials tile_32.png -n 32").fails(4, &["256 × 64", "8192 × 2050"]);
+}

@@ -17,7 +17,7 @@ use crate::limits::Limits;
 
 /// Texels that are decoded together.
 const BAND_TEXELS: usize = 1 << 20;
-/// A byte that is read is more than this one; so are the few that a decoder needs for itself.
+/// Bytes that are read from the file at once.
 const BUFFER_BYTES: usize = 1 << 20;
 /// What stands for +Z, as well as 8 bits can.
 const UP: [u8; 3] = [128, 128, 255];
@@ -77,6 +77,11 @@ impl NormalRows {
             _ => return Ok(None),
         };
         Ok((is_plain && has_color).then_some(file))
+    }
+
+    /// What the file is called in messages.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Width and height in texels.

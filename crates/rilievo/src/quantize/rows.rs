@@ -57,7 +57,7 @@ pub enum BandTexels<'a, S> {
 
 impl<S> BandTexels<'_, S> {
     /// How many texels there are.
-    pub(super) fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         match self {
             Self::Normals(normals) => normals.len(),
             Self::Rgb8(colors) => colors.len(),
@@ -113,7 +113,7 @@ pub fn quantize_rows<S: Space, R: RowSource<S>>(
     let mut indexer = Indexer::new(base, options, &entries, &nearest, owner_of.is_none());
     let needs_rows = indexer.needs_rows();
     pass(source, "indexing texels", progress, |first, band| {
-        let slots = indexer.slots(first..first + band.texels.len());
+        let slots = indexer.slots(first..first + band.texels.count());
         match (&mut owner_of, band.texels) {
             (Some(owner_of), BandTexels::Rgb8(codes)) => search.look_up::<S>(owner_of, codes, slots),
             _ => search.find(&band, width as usize, slots),
@@ -147,7 +147,7 @@ fn pass<S: Space, R: RowSource<S>>(
     progress.begin(name, height.into());
     let mut done = 0;
     source.rows(&mut |band| {
-        let count = band.texels.len();
+        let count = band.texels.count();
         let lists = [band.covered.map(<[bool]>::len), band.materials.map(<[u8]>::len)];
         let fits = count.is_multiple_of(width) && lists.iter().flatten().all(|&l| l == count);
         if !fits || done + count > expected {

@@ -53,7 +53,7 @@ impl Tally {
 
     /// Counts the covered texels of some rows.
     pub(super) fn add<S: Space>(&mut self, band: &Band<'_, S>) {
-        let covered = (0..band.texels.len()).filter(|&i| band.is_covered(i));
+        let covered = (0..band.texels.count()).filter(|&i| band.is_covered(i));
         match (band.texels, band.materials) {
             (BandTexels::Rgb8(codes), None) => {
                 self.colors.resize(COLORS, 0);
