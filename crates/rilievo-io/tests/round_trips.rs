@@ -342,3 +342,20 @@ fn materials_are_read_from_alpha_and_from_sub_cubes() {
         .to_string();
     assert!(message.contains("(1, 0)") && message.contains("sub-cube"), "{message}");
 }
+
+#[test]
+fn long_levels_are_several_frames_and_any_decoder_joins_them() {
+    // 4 MiB and a bit of two-byte indices.
+    let written = map((2048, 1030), 300);
+    let bytes = encode_ktx2(&written, Convention::Gl).unwrap();
+    let reader = ktx2::Reader::new(&bytes).unwrap();
+    let level = reader.levels().next().unwrap();
+    let first = zstd::zstd_safe::find_frame_compressed_size(level.data).unwrap();
+    assert!(first < level.data.len());
+    assert_eq!(zstd::zstd_safe::find_frame_compressed_size(&level.data[first..]).unwrap(), level.data.len() - first);
+    let whole = zstd::bulk::decompress(level.data, level.uncompressed_byte_length as usize).unwrap();
+    let expected: Vec<u8> = written.base().texels().iter().flat_map(|i| i.to_le_bytes()).collect();
+    assert!(whole == expected);
+    let back = decode_indexed(&source(bytes), &ImportAs::default(), &Limits::default()).unwrap();
+    assert_eq!(back.map.indices(), written.indices());
+}

@@ -13,6 +13,8 @@ mod quantize;
 mod relight;
 mod render;
 mod report;
+mod scale;
+mod size;
 
 use anyhow::{Context, Result};
 use clap::Parser;
@@ -27,8 +29,18 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 4] = [
+const GROUPS: [Group; 6] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
+    Group {
+        name: "scale",
+        what: "a map of 16 384 × 16 384 texels through the program: memory, error, time",
+        run: scale::run,
+    },
+    Group {
+        name: "size",
+        what: "bytes against error: index maps, PNG, BC7, octahedral; rewrites docs/",
+        run: size::run,
+    },
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },

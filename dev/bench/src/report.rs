@@ -12,6 +12,8 @@ pub(crate) enum Unit {
     Seconds,
     /// Ratio: ours over the bound's; smaller is better.
     Degrees,
+    /// Ratio: ours over the peer's; smaller is better.
+    Bytes,
 }
 
 /// One measured figure.
@@ -41,7 +43,7 @@ impl Case {
     fn ratio(&self) -> Option<f64> {
         self.peer.map(|peer| match self.unit {
             Unit::Seconds => peer / self.ours,
-            Unit::Degrees => self.ours / peer,
+            Unit::Degrees | Unit::Bytes => self.ours / peer,
         })
     }
 
@@ -49,14 +51,14 @@ impl Case {
         let (ratio, target) = (self.ratio()?, self.target?);
         Some(match self.unit {
             Unit::Seconds => ratio >= target,
-            Unit::Degrees => ratio <= target,
+            Unit::Degrees | Unit::Bytes => ratio <= target,
         })
     }
 
     fn to_json(&self) -> Value {
         let mut object = json!({
             "case": self.name,
-            "unit": match self.unit { Unit::Seconds => "s", Unit::Degrees => "deg" },
+            "unit": match self.unit { Unit::Seconds => "s", Unit::Degrees => "deg", Unit::Bytes => "B" },
             "ours": self.ours,
             "peer": self.peer,
             "ratio": self.ratio(),
@@ -78,7 +80,7 @@ impl Case {
         let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
         let target = self.target.map(|target| match self.unit {
             Unit::Seconds => format!("≥ {target}"),
-            Unit::Degrees => format!("≤ {target}"),
+            Unit::Degrees | Unit::Bytes => format!("≤ {target}"),
         });
         let spent = self.spent.map(|s| format!("{:.2} s CPU, {:.2} s wall", s.cpu_seconds, s.wall_seconds));
         let remarks: Vec<_> = spent.into_iter().chain((!self.note.is_empty()).then(|| self.note.clone())).collect();
@@ -99,6 +101,9 @@ impl Case {
 fn amount(value: f64, unit: Unit) -> String {
     match unit {
         Unit::Degrees => format!("{value:.4}°"),
+        Unit::Bytes if value < 1e7 => format!("{:.1} kB", value * 1e-3),
+        Unit::Bytes => format!("{:.0} MB", value * 1e-6),
+        Unit::Seconds if value < 1e-6 => format!("{:.1} ns", value * 1e9),
         Unit::Seconds if value < 1e-3 => format!("{:.1} µs", value * 1e6),
         Unit::Seconds if value < 1.0 => format!("{:.2} ms", value * 1e3),
         Unit::Seconds => format!("{value:.3} s"),
@@ -122,6 +127,11 @@ impl Report {
             self.missed.push(case.name.clone());
         }
         self.line(&if self.json { case.to_json().to_string() } else { case.to_row() })
+    }
+
+    /// Tells a row of another table.
+    pub(crate) fn row(&self, value: &Value, text: &str) -> Result<()> {
+        self.line(&if self.json { value.to_string() } else { text.to_owned() })
     }
 
     /// The head of the table.

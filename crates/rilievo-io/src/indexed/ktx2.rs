@@ -17,6 +17,9 @@ const NAME: &str = "KTX2 to be written";
 const TABLE_KEY: &str = "rilievo:table";
 /// Slow to write, as fast to read as any other.
 const ZSTD_LEVEL: i32 = 19;
+/// A level longer than this is several frames (RFC 8878, § 3: data is one or more of them). At this level the search for
+/// matches outgrows the caches: twice the time per byte for 64 MiB in one frame, for 5 % less.
+const FRAME_BYTES: usize = 4 << 20;
 
 pub(super) fn decode(source: &Source, import: &ImportAs, limits: &Limits) -> Result<IndexedFile> {
     let (name, bytes) = (source.name(), source.bytes());
@@ -98,7 +101,7 @@ fn decompress(data: &[u8], expected: usize) -> std::io::Result<Vec<u8>> {
     Ok(unpacked)
 }
 
-/// All levels as a KTX2: R8_UINT for up to 256 entries, R16_UINT above, Zstandard-compressed level by level, with the
+/// All levels as a KTX2: R8_UINT for up to 256 entries, R16_UINT above, Zstandard-compressed level by level (frames of 4 MiB), with the
 /// table under the key `rilievo:table`.
 ///
 /// # Errors
@@ -121,15 +124,11 @@ pub fn encode_ktx2<S: Space>(map: &QuantizedMap<S>, convention: Convention) -> R
     let mut index = Vec::new();
     let mut data = Vec::new();
     for level in levels.iter().rev() {
-        let raw: Vec<u8> = match texel_bytes {
-            1 => level.texels().iter().map(|&i| i as u8).collect(),
-            _ => level.texels().iter().flat_map(|i| i.to_le_bytes()).collect(),
-        };
-        let packed = compress(&raw).map_err(|e| Error::write(NAME, e))?;
+        let packed = compress(level.texels(), texel_bytes as usize).map_err(|e| Error::write(NAME, e))?;
         index.push(LevelIndex {
             byte_offset: data_at as u64,
             byte_length: packed.len() as u64,
-            uncompressed_byte_length: raw.len() as u64,
+            uncompressed_byte_length: level.texels().len() as u64 * u64::from(texel_bytes),
         });
         data_at += packed.len();
         data.extend(packed);
@@ -163,10 +162,19 @@ pub fn encode_ktx2<S: Space>(map: &QuantizedMap<S>, convention: Convention) -> R
     Ok(bytes)
 }
 
-fn compress(raw: &[u8]) -> std::io::Result<Vec<u8>> {
-    let mut compressor = zstd::bulk::Compressor::new(ZSTD_LEVEL)?;
-    compressor.set_parameter(CParameter::ChecksumFlag(true))?;
-    compressor.compress(raw)
+/// One Zstandard frame for every [`FRAME_BYTES`] of texels, packed side by side.
+fn compress(texels: &[u16], texel_bytes: usize) -> std::io::Result<Vec<u8>> {
+    let frames: Vec<&[u16]> = texels.chunks(FRAME_BYTES / texel_bytes).collect();
+    let packed = rilievo::par::map_range(frames.len(), |frame| {
+        let raw: Vec<u8> = match texel_bytes {
+            1 => frames[frame].iter().map(|&i| i as u8).collect(),
+            _ => frames[frame].iter().flat_map(|i| i.to_le_bytes()).collect(),
+        };
+        let mut compressor = zstd::bulk::Compressor::new(ZSTD_LEVEL)?;
+        compressor.set_parameter(CParameter::ChecksumFlag(true))?;
+        compressor.compress(&raw)
+    });
+    Ok(packed.into_iter().collect::<std::io::Result<Vec<_>>>()?.concat())
 }
 
 /// A data format descriptor with one basic block: one unsigned integer channel.
