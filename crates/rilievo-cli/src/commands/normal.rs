@@ -67,8 +67,8 @@ enum InputKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Dither {
     None,
-    /// A fixed pattern: the same at every frame, no worms.
-    Ordered,
+    /// By a mask: the same at every frame, no worms.
+    BlueNoise,
     /// Error diffusion: the least error over an area.
     Diffusion,
 }
@@ -162,7 +162,7 @@ fn encode<S: Space>(
     } else {
         let dither = match args.dither {
             Dither::None => DitherU8::None,
-            Dither::Ordered => DitherU8::Ordered,
+            Dither::BlueNoise => DitherU8::BlueNoise,
             Dither::Diffusion => DitherU8::Diffusion,
         };
         let turned = normals.map(|&n| rilievo::Convention::from(convention).apply(n));

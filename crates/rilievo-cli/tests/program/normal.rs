@@ -33,7 +33,7 @@ fn sixteen_bits_stay_and_eight_are_dithered() {
     room.run("normal hill.png --depth 0.01 -o n16.png").ok();
     room.run("normal hill.png --depth 0.01 --bits 8 -o n8.png").ok();
     room.run("normal hill.png --depth 0.01 --bits 8 --dither diffusion -o n8d.png").ok();
-    room.run("normal hill.png --depth 0.01 --bits 8 --dither ordered -o n8o.png").ok();
+    room.run("normal hill.png --depth 0.01 --bits 8 --dither blue-noise -o n8o.png").ok();
     let worst = |name: &str| {
         let said = room.run(&format!("compare exact.exr {name} --as normals --json")).ok();
         said.json()["max_deg"].as_f64().unwrap()
@@ -42,7 +42,7 @@ fn sixteen_bits_stay_and_eight_are_dithered() {
     assert!((0.01..1.0).contains(&worst("n8.png")));
     assert_ne!(room.read("n8.png"), room.read("n8d.png"));
     assert_ne!(room.read("n8o.png"), room.read("n8d.png"));
-    room.run("normal hill.png --dither ordered").fails(2, &["--bits 8"]);
+    room.run("normal hill.png --dither blue-noise").fails(2, &["--bits 8"]);
 }
 
 #[test]

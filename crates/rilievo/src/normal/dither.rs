@@ -18,7 +18,7 @@ pub enum DitherU8 {
     #[default]
     None,
     /// By a blue-noise mask: each texel on its own, so tiles stay tiles and still pictures stay still.
-    Ordered,
+    BlueNoise,
     /// By error diffusion: the closest averages, but a texel depends on all those above it.
     Diffusion,
 }
@@ -27,7 +27,7 @@ pub enum DitherU8 {
 ///
 /// - **Shape:** one colour per texel, row-major, same size as `map`; decode with [`super::decode_u8`].
 /// - **Accuracy:** over three slowly curving maps, the errors of normals averaged over σ = 1.5 texels fall to 17–29 %
-///   (ordered) and 8–19 % (diffusion) of those without dithering, while single texels err 1.4 and 0.8–1.3 times as
+///   (blue noise) and 8–19 % (diffusion) of those without dithering, while single texels err 1.4 and 0.8–1.3 times as
 ///   much (`smooth_curvature_survives_in_local_averages`).
 /// - **Determinism:** class A: the same bits for any thread count and instruction set.
 ///
@@ -42,7 +42,7 @@ pub enum DitherU8 {
 ///     codes.texels().iter().map(|c| decode_u8::<Tangent>(*c).vec().x).sum::<f32>() / 4096.0
 /// };
 /// assert!(mean_x(DitherU8::None) > 0.003);
-/// assert!(mean_x(DitherU8::Ordered).abs() < 1e-4);
+/// assert!(mean_x(DitherU8::BlueNoise).abs() < 1e-4);
 /// assert!(mean_x(DitherU8::Diffusion).abs() < 1e-4);
 /// # Ok::<(), rilievo::Error>(())
 /// ```
@@ -55,11 +55,11 @@ pub fn encode_map_u8<S: Space>(map: &NormalMap<S>, dither: DitherU8) -> Grid<[u8
                 *code = encode_u8(*n);
             }
         }),
-        DitherU8::Ordered => {
+        DitherU8::BlueNoise => {
             let mask = BlueNoise::get();
             par::for_each_row(codes.texels_mut(), width, |y, row| {
                 for (x, (code, n)) in row.iter_mut().zip(map.row(y as u32)).enumerate() {
-                    *code = ordered(*n, mask, x, y);
+                    *code = masked(*n, mask, x, y);
                 }
             });
         }
@@ -78,7 +78,7 @@ fn in_codes(component: f32) -> f32 {
 /// The mean over the mask is the vector itself. Renormalising each texel changes that mean only in the second order
 /// (one code is 0.008 rad, so by some 10⁻⁵ rad), and not at all along the normal, as long as the components are rounded
 /// independently: each sees the mask from another corner.
-fn ordered<S: Space>(n: Normal<S>, mask: &BlueNoise, x: usize, y: usize) -> [u8; 3] {
+fn masked<S: Space>(n: Normal<S>, mask: &BlueNoise, x: usize, y: usize) -> [u8; 3] {
     const OFFSETS: [(usize, usize); 3] = [(0, 0), (23, 41), (45, 14)];
     let components = n.vec().to_array();
     std::array::from_fn(|c| {
@@ -138,7 +138,7 @@ mod tests {
     use crate::grid::Edges;
     use crate::normal::Object;
 
-    const MODES: [DitherU8; 3] = [DitherU8::None, DitherU8::Ordered, DitherU8::Diffusion];
+    const MODES: [DitherU8; 3] = [DitherU8::None, DitherU8::BlueNoise, DitherU8::Diffusion];
 
     /// A slowly curving map: `bend` is the change of slope over the whole map.
     fn curving(width: u32, height: u32, bend: f32, around: Vec3) -> NormalMap<Object> {
@@ -186,10 +186,10 @@ mod tests {
                 let plain = |m: &NormalMap<Object>| m.map(|n| n.vec().as_dvec3());
                 rms_deg(&plain(&map), &plain(&decoded(&map, dither)))
             };
-            let [none, ordered, diffused] = MODES.map(error);
+            let [none, masked, diffused] = MODES.map(error);
             let singles = MODES.map(single);
-            println!("{name}: blurred {none:.4}° {ordered:.4}° {diffused:.4}°, single texels {singles:.4?}°");
-            assert!(ordered < none * 0.35, "{name}: {none} {ordered}");
+            println!("{name}: blurred {none:.4}° {masked:.4}° {diffused:.4}°, single texels {singles:.4?}°");
+            assert!(masked < none * 0.35, "{name}: {none} {masked}");
             assert!(diffused < none * 0.22, "{name}: {none} {diffused}");
         }
     }
@@ -199,7 +199,7 @@ mod tests {
         for v in [Vec3::Z, Vec3::new(0.3, 0.2, 0.9), Vec3::new(-0.51, 0.77, -0.33), Vec3::new(-1.0, 0.004, 0.0)] {
             let n = Normal::<Object>::new(v).unwrap();
             let map = Grid::filled(128, 128, n).unwrap();
-            for dither in [DitherU8::Ordered, DitherU8::Diffusion] {
+            for dither in [DitherU8::BlueNoise, DitherU8::Diffusion] {
                 let mean = decoded(&map, dither).texels().iter().map(|n| n.vec().as_dvec3()).sum::<DVec3>();
                 let off = (mean.normalize() - n.vec().as_dvec3()).length().to_degrees();
                 assert!(off < 0.005, "{dither:?} {v}: {off}°");
@@ -210,8 +210,8 @@ mod tests {
     #[test]
     fn no_texel_strays_farther_than_its_codes() {
         let map = curving(67, 43, 0.7, Vec3::new(0.2, 0.3, 1.0));
-        // One code in each component (ordered), and what diffusion has piled up besides.
-        for (dither, codes) in [(DitherU8::None, 0.5), (DitherU8::Ordered, 1.0), (DitherU8::Diffusion, 1.5)] {
+        // One code in each component (blue noise), and what diffusion has piled up besides.
+        for (dither, codes) in [(DitherU8::None, 0.5), (DitherU8::BlueNoise, 1.0), (DitherU8::Diffusion, 1.5)] {
             let limit = codes * 3.0f64.sqrt() / 127.5 * 1.01;
             for (n, d) in map.texels().iter().zip(decoded(&map, dither).texels()) {
                 assert!(n.angle_to(*d) <= limit, "{dither:?} {n:?} {d:?}");
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn mirrored_normals_diffuse_to_mirrored_codes() {
-        // c and 255 − c decode to opposite components, so nothing favours a side. (Ordered dithering does, texel by
+        // c and 255 − c decode to opposite components, so nothing favours a side. (Blue noise does, texel by
         // texel: the mask does not turn with the normals.)
         let map = curving(41, 29, 0.3, Vec3::new(0.31, 0.22, 0.9));
         let mirrored = map.map(|n| Normal::<Object>::new(n.vec() * Vec3::new(-1.0, 1.0, -1.0)).unwrap());
