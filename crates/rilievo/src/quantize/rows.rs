@@ -46,7 +46,7 @@ pub struct Band<'a, S> {
     pub materials: Option<&'a [u8]>,
 }
 
-/// What a band holds; compare [`Texels`].
+/// What a band holds; compare [`super::Texels`].
 #[derive(Debug, Clone, Copy)]
 pub enum BandTexels<'a, S> {
     /// Unit vectors.
