@@ -1,8 +1,10 @@
 //! The distinct ones among 24-bit colours: a bitmap of all there are, and the rank of each bit that is set.
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x8};
 
-use super::points::NO_POINT;
+use super::octahedral;
+use super::points::{LANES, NO_POINT};
 use crate::par;
 
 /// Words of a bitmap of 2²⁴ bits.
@@ -83,9 +85,52 @@ fn look_up<S: Simd>(_simd: S, words: &[Word], texels: &[[u8; 3]], covered: Optio
     }
 }
 
+/// Colours as the unit vectors that [`crate::normal::decode_u8`] makes of them, and where these stand in Morton order; to
+/// the bit, but side by side.
+#[inline(always)]
+pub(super) fn decode_with_codes<S: Simd>(simd: S, colors: &[[u8; 3]]) -> (Vec<[f32; 3]>, Vec<u64>) {
+    let (mut directions, mut codes) = (Vec::with_capacity(colors.len()), Vec::with_capacity(colors.len()));
+    for chunk in colors.chunks(LANES) {
+        let mut scaled = [[1.0f32; LANES]; 3];
+        for (l, color) in chunk.iter().enumerate() {
+            for k in 0..3 {
+                scaled[k][l] = (2 * i32::from(color[k]) - 255) as f32;
+            }
+        }
+        let v = scaled.map(|c| f32x8::from_slice(simd, &c));
+        let largest = v[0].abs().max(v[1].abs()).max(v[2].abs());
+        let v = v.map(|c| c / largest);
+        let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let v = v.map(|c| c / length);
+        let all = octahedral::morton_lanes(simd, v);
+        let [x, y, z] = v.map(|c| c.to_array());
+        directions.extend((0..chunk.len()).map(|l| [x[l], y[l], z[l]]));
+        codes.extend_from_slice(&all[..chunk.len()]);
+    }
+    (directions, codes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn colours_side_by_side_are_decoded_as_one_by_one() {
+        let colors: Vec<[u8; 3]> = (0..1u32 << 24)
+            .step_by(61)
+            .chain([0, 0x7f_7f_7f, 0x80_80_80, 0xff_ff_ff, 0x7f_80_00, 0x80_7f_ff])
+            .map(|c| [(c >> 16) as u8, (c >> 8) as u8, c as u8])
+            .collect();
+        for level in [Level::new(), Level::baseline()] {
+            let (directions, codes) = dispatch!(level, simd => decode_with_codes(simd, &colors));
+            assert_eq!((directions.len(), codes.len()), (colors.len(), colors.len()));
+            for (i, &color) in colors.iter().enumerate() {
+                let expected = crate::normal::decode_u8::<crate::Object>(color).vec().to_array();
+                assert_eq!(directions[i].map(f32::to_bits), expected.map(f32::to_bits), "{color:?}");
+                assert_eq!(codes[i], octahedral::morton(expected), "{color:?}");
+            }
+        }
+    }
 
     #[test]
     fn ranks_are_those_of_the_sorted_colours() {

@@ -4,6 +4,11 @@
 //! same on every machine. Morton order makes a quadtree of a sorted list; Hilbert order keeps neighbours in a table
 //! neighbours on the sphere, which is what file compression lives on.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8, u32x8};
+
+use super::points::LANES;
+
 /// Bits of one coordinate in a Morton code.
 const MORTON_BITS: u32 = 17;
 /// Bits of a whole Morton code.
@@ -40,6 +45,24 @@ fn spread(v: u32) -> u64 {
 pub(super) fn morton(direction: [f32; 3]) -> u64 {
     let [u, v] = cell(direction, MORTON_BITS);
     spread(u) | spread(v) << 1
+}
+
+/// [`morton`] of eight directions, to the bit.
+#[inline(always)]
+pub(super) fn morton_lanes<S: Simd>(simd: S, [x, y, z]: [f32x8<S>; 3]) -> [u64; LANES] {
+    let one = f32x8::splat(simd, 1.0);
+    let sum = x.abs() + y.abs() + z.abs();
+    let (u, v) = (x / sum, y / sum);
+    let toward = |c: f32x8<S>| c.simd_ge(0.0).select(one, -one);
+    let folded = z.simd_lt(0.0);
+    let (u, v) = (folded.select((one - v.abs()) * toward(u), u), folded.select((one - u.abs()) * toward(v), v));
+    let top = (1u32 << MORTON_BITS) - 1;
+    let cell = |c: f32x8<S>| {
+        let cells: u32x8<S> = ((c * 0.5 + 0.5) * (top + 1) as f32).to_int();
+        cells.min(top).to_array()
+    };
+    let (u, v) = (cell(u), cell(v));
+    std::array::from_fn(|l| spread(u[l]) | spread(v[l]) << 1)
 }
 
 /// Where a direction stands along the Hilbert curve.

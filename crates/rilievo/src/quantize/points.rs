@@ -6,11 +6,12 @@
 
 use std::ops::Range;
 
+use fearless_simd::{Level, dispatch};
+
 use super::colors::{self, Colors};
 use super::entries::unit;
 use super::octahedral::{MORTON_CODE_BITS, morton};
 use super::texels::Texels;
-use crate::normal::decode_u8;
 use crate::{Grid, MaterialMap, Normal, Space, par};
 
 /// How many points the kernels handle side by side; the arrays are padded by as many.
@@ -103,6 +104,13 @@ impl Points {
         let item = |key: &u64| (key & ((1 << ITEM_BITS) - 1)) as usize;
         let mut cell = Vec::new();
         for keys in keys.chunk_by(|a, b| a >> ITEM_BITS == b >> ITEM_BITS) {
+            if let &[key] = keys {
+                let (item, point) = (item(&key), self.x.len() as u32);
+                self.push(identity(item).map(f32::from_bits), 0.0);
+                self.codes.push(key >> ITEM_BITS);
+                found(item, point);
+                continue;
+            }
             cell.clear();
             cell.extend(keys.iter().map(|key| (identity(item(key)), item(key))));
             // In most cells all are equal, and then in order already.
@@ -163,26 +171,36 @@ pub(super) fn gather<S: Space>(
     covered: Option<&Grid<bool>>,
 ) -> Gathered {
     match (texels, materials) {
-        (Texels::Rgb8(codes), None) => of_colors::<S>(codes, covered),
+        (Texels::Rgb8(codes), None) => of_colors(codes, covered),
         _ => of_texels(&texels.decoded(0..texels.len()), materials, covered),
     }
 }
 
-fn of_colors<S: Space>(codes: &Grid<[u8; 3]>, covered: Option<&Grid<bool>>) -> Gathered {
+fn of_colors(codes: &Grid<[u8; 3]>, covered: Option<&Grid<bool>>) -> Gathered {
     let Colors { distinct, counts, rank_of } = colors::distinct(codes.texels(), covered.map(Grid::texels));
-    let (points, point_of) = of_counted_colors::<S>(&distinct, &counts);
+    let (points, point_of) = of_counted_colors(&distinct, &counts);
     Gathered { points, class_of: rank_of, point_of }
 }
 
 /// The points of distinct colours that occur so often, and the point of each.
-pub(super) fn of_counted_colors<S: Space>(distinct: &[[u8; 3]], counts: &[u32]) -> (Points, Vec<u32>) {
-    let normals = par::map_range(distinct.len(), |rank| decode_u8::<S>(distinct[rank]));
-    let mut keys = par::map_range(distinct.len(), |rank| key(normals[rank], rank));
+pub(super) fn of_counted_colors(distinct: &[[u8; 3]], counts: &[u32]) -> (Points, Vec<u32>) {
+    let level = Level::new();
+    let pieces = par::map_range(distinct.len().div_ceil(PIECE), |piece| {
+        let part = &distinct[piece * PIECE..distinct.len().min((piece + 1) * PIECE)];
+        dispatch!(level, simd => colors::decode_with_codes(simd, part))
+    });
+    let (mut directions, mut keys) = (Vec::with_capacity(distinct.len()), Vec::with_capacity(distinct.len()));
+    for (some, codes) in pieces {
+        let first = directions.len() as u64;
+        keys.extend((first..).zip(codes).map(|(rank, code)| code << ITEM_BITS | rank));
+        directions.extend(some);
+    }
     par::sort_unstable(&mut keys);
     let mut points = Points::default();
     let mut point_of = vec![NO_POINT; distinct.len()];
     if !keys.is_empty() {
-        points.add_group(0, &keys, |rank| identity(normals[rank]), |rank, point| point_of[rank] = point);
+        let identity = |rank: usize| directions[rank].map(|c| (c + 0.0).to_bits());
+        points.add_group(0, &keys, identity, |rank, point| point_of[rank] = point);
     }
     for (&point, &count) in point_of.iter().zip(counts) {
         points.weight[point as usize] += count as f32;

@@ -99,7 +99,7 @@ impl Tally {
         if self.cells.is_empty() {
             let counts: Vec<u32> = distinct.iter().map(|&code| colors[code]).collect();
             let distinct: Vec<[u8; 3]> = distinct.into_iter().map(color).collect();
-            let (points, point_of) = of_counted_colors::<S>(&distinct, &counts);
+            let (points, point_of) = of_counted_colors(&distinct, &counts);
             return Counted { points, colors: Some((distinct, point_of)) };
         }
         for code in distinct {
