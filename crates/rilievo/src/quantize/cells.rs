@@ -29,10 +29,12 @@ const NONE: u32 = u32::MAX;
 /// Weighted points, each in the cell of an entry.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
-    /// The points, cell by cell, each cell with some room; [`LANES`] more for the loops' sake.
+    /// The points, cell after cell in any order, each cell with some room; [`LANES`] more for the loops' sake.
     slots: Slots,
     /// The slots of each cell.
     spans: Vec<Range<u32>>,
+    /// Where the room of each cell ends.
+    limits: Vec<u32>,
     /// No point of a cell is farther from its entry.
     radii: Vec<f32>,
     /// For each entry the sum of weight × point and of weight over its points.
@@ -79,6 +81,7 @@ impl Cells {
         let mut cells = Self {
             slots: Slots::empty(0),
             spans: Vec::new(),
+            limits: Vec::new(),
             radii: vec![0.0; entries],
             sums: vec![[0.0; 4]; entries],
             table: None,
@@ -114,7 +117,14 @@ impl Cells {
 
     /// Renumbers entries: the cell of entry e becomes, or joins, that of entry `new_of[e]`. Cells are only a guess then.
     pub(super) fn renumber(&mut self, new_of: &[u32]) {
-        self.refill(|entry, _| new_of[entry]);
+        if is_permutation(new_of) {
+            let (spans, limits) = (self.spans.clone(), self.limits.clone());
+            for (&new, (span, limit)) in new_of.iter().zip(spans.into_iter().zip(limits)) {
+                (self.spans[new as usize], self.limits[new as usize]) = (span, limit);
+            }
+        } else {
+            self.refill(|entry, _| new_of[entry]);
+        }
         self.table = None;
     }
 
@@ -241,8 +251,7 @@ impl Cells {
             let radius = &mut self.radii[to as usize];
             *radius = radius.max(distance);
         }
-        let starts = self.spans[1..].iter().map(|s| s.start);
-        let fits = ends.iter().zip(starts.chain([(self.slots.x.len() - LANES) as u32])).all(|(&end, next)| end <= next);
+        let fits = ends.iter().zip(&self.limits).all(|(end, limit)| end <= limit);
         if !fits {
             let mut owners = vec![NONE; self.slots.x.len()];
             changes.iter().for_each(|c| owners[c.slot as usize] = c.to);
@@ -276,13 +285,14 @@ impl Cells {
     fn fill(&mut self, points: impl Iterator<Item = (u32, Point)> + Clone) {
         let mut counts = vec![0u32; self.radii.len()];
         points.clone().for_each(|(owner, _)| counts[owner as usize] += 1);
+        self.spans.clear();
+        self.limits.clear();
         let mut end = 0;
-        let span = |count: u32| {
-            let start = end;
+        for count in counts {
+            self.spans.push(end..end);
             end += count + count / 4 + ROOM;
-            start..start
-        };
-        self.spans = counts.into_iter().map(span).collect();
+            self.limits.push(end);
+        }
         self.slots = Slots::empty(end as usize + LANES);
         points.for_each(|(owner, point)| {
             let span = &mut self.spans[owner as usize];
@@ -322,6 +332,12 @@ impl Slots {
         (self.x[slot], self.y[slot], self.z[slot]) = (x, y, z);
         (self.weight[slot], self.id[slot]) = (weight, id);
     }
+}
+
+/// Whether every number occurs once.
+fn is_permutation(numbers: &[u32]) -> bool {
+    let mut seen = vec![false; numbers.len()];
+    numbers.iter().all(|&n| !std::mem::replace(&mut seen[n as usize], true))
 }
 
 /// The numbers of the bits that are set, rising.
@@ -415,6 +431,7 @@ mod tests {
                         entries.directions[span].reverse();
                         cells.renumber(&new_of);
                     }
+                    9 => cells.renumber(&firsts),
                     _ => approach_means(&mut entries, cells.sums(), 1.4),
                 }
             }

@@ -103,7 +103,7 @@ pub(super) fn decode_with_codes<S: Simd>(simd: S, colors: &[[u8; 3]]) -> (Vec<[f
         let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
         let v = v.map(|c| c / length);
         let all = octahedral::morton_lanes(simd, v);
-        let [x, y, z] = v.map(|c| c.to_array());
+        let [x, y, z] = v.map(f32x8::to_array);
         directions.extend((0..chunk.len()).map(|l| [x[l], y[l], z[l]]));
         codes.extend_from_slice(&all[..chunk.len()]);
     }
