@@ -55,7 +55,7 @@ const BAND_ROWS: usize = 64;
 /// How much work the quantiser does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Effort {
-    /// Few steps: 1½ to 2 % more error in a sixth to a quarter of the time.
+    /// Few steps: 1 to 2 % more error in a third to a quarter of the time.
     Fast,
     /// The default.
     #[default]
