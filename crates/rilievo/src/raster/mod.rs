@@ -33,6 +33,7 @@ mod scene;
 mod table;
 mod target;
 mod texture;
+pub mod vectors;
 
 pub use draw::draw;
 pub use frame::{Frame, prepare};
