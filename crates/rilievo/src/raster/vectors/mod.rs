@@ -19,4 +19,4 @@ mod six_point;
 
 pub use frames::{Corner, Midpoints, Rotated, Viewer};
 pub use order::Order;
-pub use six_point::{Linear, Quadratic, ScreenTriangle, SixSamples, ToNormalized, Value};
+pub use six_point::{Linear, Quadratic, Sides, SixSamples, ToNormalized, Value};

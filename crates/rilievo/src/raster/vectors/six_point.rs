@@ -25,7 +25,7 @@ pub struct SixSamples<T> {
 
 /// A triangle on the screen, seen from its vertex 0: where vertices 1 and 2 are from there, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ScreenTriangle {
+pub struct Sides {
     /// Vertex 1 − vertex 0.
     pub first: Vec2,
     /// Vertex 2 − vertex 0.
@@ -35,7 +35,7 @@ pub struct ScreenTriangle {
 /// A triangle whose height is less than this share of its longest side is a sliver.
 const SLIVER: f32 = 1.0 / 512.0;
 
-impl ScreenTriangle {
+impl Sides {
     /// Whether the triangle is too thin for quadratic polynomials in f32.
     ///
     /// Their coefficients grow with the square of length over height, and cancel: at 1/512 an error of up to 3e-3 is
@@ -60,7 +60,7 @@ pub struct ToNormalized {
 
 impl ToNormalized {
     /// Equations (12)-(18). `None` for a triangle without area.
-    pub fn new(triangle: &ScreenTriangle) -> Option<Self> {
+    pub fn new(triangle: &Sides) -> Option<Self> {
         let (p1, p2) = (triangle.first, triangle.second);
         let omega = reciprocal(p1.perp_dot(p2))?;
         Some(Self { alpha: [p2.y * omega, -p1.y * omega], beta: [-p2.x * omega, p1.x * omega] })
@@ -150,7 +150,7 @@ impl<T: Value> Quadratic<T> {
     ///
     /// - **Source:** Abbas et al. 2001: setup on the actual triangle. The same polynomial as [`Self::on_normalized`]
     ///   and [`Self::to_screen`] make, to rounding, at a higher price.
-    pub fn on_actual(samples: &SixSamples<T>, triangle: &ScreenTriangle) -> Option<Self> {
+    pub fn on_actual(samples: &SixSamples<T>, triangle: &Sides) -> Option<Self> {
         let (Vec2 { x: x1, y: y1 }, Vec2 { x: x2, y: y2 }) = (triangle.first, triangle.second);
         let [l, m, n] = samples.corners;
         let [q, r, s] = samples.midpoints;
@@ -198,23 +198,23 @@ mod tests {
     use super::*;
 
     /// Triangles of every shape and winding, none of them thinner than a hundredth of its length.
-    fn triangles() -> impl Iterator<Item = ScreenTriangle> {
+    fn triangles() -> impl Iterator<Item = Sides> {
         shaped(0.01..1.0).take(500)
     }
 
     /// Height over longest side.
-    fn thinness(t: &ScreenTriangle) -> f64 {
+    fn thinness(t: &Sides) -> f64 {
         let (a, b) = (t.first.as_dvec2(), t.second.as_dvec2());
         a.perp_dot(b).abs() / a.length_squared().max(b.length_squared()).max(a.distance_squared(b))
     }
 
     /// Triangles of a given range of thinness.
-    fn shaped(thin: std::ops::Range<f64>) -> impl Iterator<Item = ScreenTriangle> {
+    fn shaped(thin: std::ops::Range<f64>) -> impl Iterator<Item = Sides> {
         let mut random = testkit::Random::new(7);
         std::iter::repeat_with(move || {
             let mut coordinate = || (random.unit() as f32 - 0.5) * 200.0;
             let mut point = || Vec2::new(coordinate(), coordinate());
-            ScreenTriangle { first: point(), second: point() }
+            Sides { first: point(), second: point() }
         })
         .filter(move |t| thin.contains(&thinness(t)))
     }
@@ -224,7 +224,7 @@ mod tests {
         3e-5 * x * x - 5e-5 * y * y + 2e-5 * x * y + 0.004 * x - 0.007 * y + 0.6
     }
 
-    fn samples_of(f: impl Fn(f64, f64) -> f64, t: &ScreenTriangle) -> SixSamples<f32> {
+    fn samples_of(f: impl Fn(f64, f64) -> f64, t: &Sides) -> SixSamples<f32> {
         let at = |p: Vec2| f(f64::from(p.x), f64::from(p.y)) as f32;
         let middle = (t.first + t.second) * 0.5;
         SixSamples {
@@ -234,7 +234,7 @@ mod tests {
     }
 
     /// Points inside a triangle.
-    fn inside(t: &ScreenTriangle) -> impl Iterator<Item = Vec2> {
+    fn inside(t: &Sides) -> impl Iterator<Item = Vec2> {
         let t = *t;
         (0..=8).flat_map(move |i| (0..=8 - i).map(move |j| (t.first * i as f32 + t.second * j as f32) / 8.0))
     }
@@ -309,7 +309,7 @@ mod tests {
                 let [l, m, n] = corners.map(Vec3::as_dvec3);
                 let expected = (l * (1.0 - u - v) + m * u + n * v).length_squared();
                 let error = (f64::from(square.at(p.x, p.y)) - expected).abs();
-                // Cancellation, see `ScreenTriangle::is_sliver`.
+                // Cancellation, see `Sides::is_sliver`.
                 assert!(error < 1e-6 / thinness(&t).powi(2).min(0.1), "{t:?}: {expected}, off by {error}");
             }
         }
@@ -342,7 +342,7 @@ mod tests {
     fn triangles_without_area_and_nan_are_refused() {
         let samples = SixSamples { corners: [0.0f32; 3], midpoints: [0.0; 3] };
         for second in [Vec2::new(2.0, 4.0), Vec2::ZERO, Vec2::NAN, Vec2::INFINITY] {
-            let t = ScreenTriangle { first: Vec2::new(1.0, 2.0), second };
+            let t = Sides { first: Vec2::new(1.0, 2.0), second };
             assert_eq!(ToNormalized::new(&t), None, "{second}");
             assert_eq!(Quadratic::on_actual(&samples, &t), None, "{second}");
         }
