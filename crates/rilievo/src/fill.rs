@@ -56,6 +56,12 @@ impl Triangle {
         !self.flipped
     }
 
+    /// The snapped corners as they were given, in 1/2⁸ of a pixel.
+    pub(crate) fn snapped(&self) -> [[i64; 2]; 3] {
+        let [a, b, c] = self.vertices;
+        if self.flipped { [a, c, b] } else { [a, b, c] }
+    }
+
     /// Calls `visit(x, y, weights)` for every pixel centre the triangle owns inside `columns` × `rows`, row by row.
     ///
     /// The weights are the barycentric coordinates of the pixel centre for the corners as they were given; they are

@@ -7,7 +7,7 @@ use crate::fill::Triangle;
 use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::frame::{Frame, Shading};
-use crate::raster::scene::{Fragment, Object};
+use crate::raster::scene::{Fragment, Object, Scene};
 use crate::raster::target::{Pixel, Target};
 use crate::raster::texture::{Footprint, Sampling, Taps};
 use crate::surface::Mesh;
@@ -22,7 +22,7 @@ const BAND_ROWS: usize = 32;
 pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     let (width, height) = target.size();
     for (object, shading) in frame.scene.objects.iter().zip(&frame.shadings) {
-        let triangles = set_up(object, frame, (width, height));
+        let triangles = set_up(object, frame.scene, (width, height));
         let sampling = Sampling { filter: frame.filter, edges: object.edges, repeat: Vec2::ONE };
         let band_len = width as usize * BAND_ROWS;
         par::for_each_row(target.pixels.texels_mut(), band_len, |band, pixels| {
@@ -57,22 +57,22 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampli
 }
 
 /// A clipped, projected triangle.
-struct ScreenTriangle {
-    shape: Triangle,
+pub(super) struct ScreenTriangle {
+    pub(super) shape: Triangle,
     /// Seen from behind.
-    back_facing: bool,
-    corners: [Corner; 3],
+    pub(super) back_facing: bool,
+    pub(super) corners: [Corner; 3],
     /// Change of the screen barycentrics to the next pixel to the right and below.
     lambda_dx: [f64; 3],
     lambda_dy: [f64; 3],
     /// Vertices of the triangle before clipping.
-    vertices: [u32; 3],
+    pub(super) vertices: [u32; 3],
 }
 
 /// Transforms, clips and projects all triangles of an object; drops what is behind, outside, or turned away.
-fn set_up(object: &Object<'_>, frame: &Frame<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
+pub(super) fn set_up(object: &Object<'_>, scene: &Scene<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
     let mesh = object.mesh;
-    let view_projection = frame.scene.camera.view_projection(width as f32 / height as f32);
+    let view_projection = scene.camera.view_projection(width as f32 / height as f32);
     let to_clip = |p: &Vec3| (view_projection * object.pose.point_to_world(*p).extend(1.0)).as_dvec4();
     // Per vertex, not per corner: triangles that share a vertex must see it at the same bits.
     let positions: Vec<DVec4> = mesh.positions().iter().map(to_clip).collect();
@@ -109,7 +109,7 @@ fn barycentric_gradients([a, b, c]: [DVec2; 3]) -> [[f64; 3]; 2] {
 
 impl ScreenTriangle {
     /// Depth at screen barycentrics `lambda`: linear on the screen.
-    fn depth(&self, lambda: [f64; 3]) -> f32 {
+    pub(super) fn depth(&self, lambda: [f64; 3]) -> f32 {
         self.corners.iter().zip(lambda).map(|(c, l)| c.position.z / c.position.w * l).sum::<f64>() as f32
     }
 
@@ -127,7 +127,7 @@ impl ScreenTriangle {
         (numerators, denominator)
     }
 
-    fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
+    pub(super) fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
         let (numerators, denominator) = self.over_w(lambda);
         let weights = numerators.map(|n| n / denominator);
         // d(n / d) = (dn − n / d · dd) / d: at the pixel itself, because a step to the next pixel may leave the triangle

@@ -29,6 +29,7 @@ mod clip;
 mod draw;
 mod exact;
 mod frame;
+pub mod scanline;
 mod scene;
 mod table;
 mod target;

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, Vec4};
 use crate::color::LinearRgb;
 use crate::grid::Edges;
 use crate::indexed::QuantizedMap;
-use crate::light::{Blend, Lighting, Material};
+use crate::light::{Blend, Layer, Lighting, LightingModel, Material};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Tangent, World};
 use crate::pose::Pose;
@@ -75,6 +75,17 @@ impl<'a> Object<'a> {
     pub fn new(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Self {
         let (pose, blend) = (Pose::IDENTITY, Blend::default());
         Self { mesh, pose, detail, base_color: None, materials, edges: Edges::Wrap, blend, double_sided: false }
+    }
+}
+
+impl Object<'_> {
+    /// The largest exponent of a highlight among the materials; 0 without highlights.
+    pub(super) fn highest_shininess(&self) -> f32 {
+        let exponent = |layer: &Layer| match layer.model {
+            LightingModel::BlinnPhong { shininess, .. } if layer.weight != 0.0 => shininess,
+            _ => 0.0,
+        };
+        self.materials.iter().flat_map(|m| m.layers()).map(exponent).fold(0.0, f32::max)
     }
 }
 
