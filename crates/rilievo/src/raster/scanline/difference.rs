@@ -110,6 +110,13 @@ pub(super) struct QuadraticEdge<T> {
     a: T,
 }
 
+impl QuadraticEdge<f32> {
+    /// A sum of all variables, so that none of them can be left out.
+    pub(super) fn sum(&self) -> f32 {
+        self.value + self.down + self.down2 + self.slope + self.slope_down + self.a
+    }
+}
+
 /// A quadratic function along a row: two additions per pixel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct QuadraticRow<T> {

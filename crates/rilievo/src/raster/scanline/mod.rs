@@ -7,6 +7,8 @@
 mod difference;
 mod outline;
 mod place;
+mod setup;
 mod stage;
 
+pub use setup::{Setup, set_up_denominator};
 pub use stage::{Stage, interpolate};

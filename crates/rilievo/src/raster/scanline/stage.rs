@@ -13,7 +13,9 @@ use crate::raster::vectors::{Field, Interpolation, Linear, Rotated, ToNormalized
 pub enum Stage {
     /// Vertices are transformed and triangles clipped, and that is all: the empty loop of the source.
     Empty,
-    /// Vectors are interpolated.
+    /// Edges are walked and depths compared.
+    Depth,
+    /// The same, and vectors are interpolated.
     Interpolate(Interpolation),
 }
 
@@ -39,6 +41,7 @@ pub fn interpolate(scene: &Scene<'_>, stage: Stage, depth: &mut Grid<f32>) -> Re
         let triangles = set_up(object, scene, depth.size());
         sum += match stage {
             Stage::Empty => triangles.iter().map(|t| t.vertices[0] as f32).sum(),
+            Stage::Depth => triangles.iter().map(|t| triangle_sum(Nothing, t, &Place::new(&t.shape), depth)).sum(),
             Stage::Interpolate(how) => object_sum(object, scene, &triangles, how, depth),
         };
     }
@@ -101,4 +104,36 @@ where
         });
     }
     sum
+}
+
+/// No vectors at all.
+#[derive(Debug, Clone, Copy)]
+struct Nothing;
+
+impl Walk for Nothing {
+    type Edge = Self;
+
+    fn on_edge(&self, _: f32, _: f32, _: f32) -> Self {
+        Self
+    }
+}
+
+impl OnEdge for Nothing {
+    type Row = Self;
+
+    fn row(&self, _: f32) -> Self {
+        Self
+    }
+
+    fn down(&mut self) {}
+}
+
+impl OnRow for Nothing {
+    type Value = Rotated;
+
+    fn value(&self) -> Rotated {
+        Rotated::default()
+    }
+
+    fn right(&mut self) {}
 }
