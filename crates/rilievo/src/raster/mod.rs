@@ -26,16 +26,14 @@
 //! ```
 
 mod clip;
-mod draw;
-mod exact;
 mod frame;
+mod reference;
 mod scene;
-mod table;
 mod target;
 mod texture;
 
-pub use draw::draw;
 pub use frame::{Frame, prepare};
+pub use reference::draw;
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::Target;
 pub use texture::TextureFilter;
