@@ -1,9 +1,11 @@
 //! The shade table: the one thing that is lit each frame.
 
+use glam::Vec3;
+
 use crate::color::{LinearRgb, Rgba8};
 use crate::error::{Error, Result};
 use crate::indexed::NormalTable;
-use crate::light::{Lighting, LightingModel, Material, Shade, shade};
+use crate::light::{Blend, Lighting, Material, Shade, shade};
 use crate::normal::{Normal, Space};
 
 /// One [`Shade`] per entry of a [`NormalTable`].
@@ -18,17 +20,19 @@ pub struct ShadeTable {
 impl ShadeTable {
     /// Lights every entry of `table`.
     ///
-    /// `lighting` and `view` (surface → eye) are in the table's own space; material `m` uses `materials[m]`.
+    /// `lighting` and `view` (surface → eye) are in the table's own space; material `m` is `materials[m]`. Point lights
+    /// count as directional, as seen from `middle`, the middle of the object.
     ///
     /// # Errors
     /// [`Error::IndexRange`] if the table names a material that is not there.
     pub fn new<S: Space>(
         table: &NormalTable<S>,
-        model: LightingModel,
         materials: &[Material],
         lighting: &Lighting<S>,
         view: Normal<S>,
+        middle: Vec3,
     ) -> Result<Self> {
+        let lighting = &lighting.from_place(middle);
         let mut entries = Vec::with_capacity(table.len());
         for (at, span) in table.spans().iter().enumerate() {
             let index = usize::from(span.material);
@@ -39,14 +43,14 @@ impl ShadeTable {
                 len: materials.len(),
             })?;
             let normals = &table.normals()[span.entries.start as usize..span.entries.end as usize];
-            entries.extend(normals.iter().map(|&n| shade(model, material, lighting, n, view)));
+            entries.extend(normals.iter().map(|&n| shade(material, lighting, n, view, middle)));
         }
         Ok(Self { entries })
     }
 
     /// The colours of a white surface, encoded: what a palette holds.
     pub fn to_srgb(&self) -> Vec<Rgba8> {
-        self.entries.iter().map(|s| s.over(LinearRgb::WHITE).to_srgb()).collect()
+        self.entries.iter().map(|s| s.over(LinearRgb::WHITE, Blend::Add).to_srgb()).collect()
     }
 
     /// The shades, in table order.
@@ -59,22 +63,18 @@ impl ShadeTable {
 mod tests {
     use super::*;
     use crate::indexed::MaterialSpan;
-    use crate::light::DirectionalLight;
+    use crate::light::Light;
     use crate::normal::Object;
-    use glam::Vec3;
 
     #[test]
     fn each_span_is_lit_with_its_material() {
         let spans = [(0, 0..1), (2, 1..3)].map(|(material, entries)| MaterialSpan { material, entries });
         let n = Normal::<Object>::new(Vec3::new(0.1, 0.2, 0.9)).unwrap();
         let table = NormalTable::with_materials(vec![n, n, Normal::Z], spans.to_vec()).unwrap();
-        let red = Material { diffuse: LinearRgb::new(1.0, 0.0, 0.0), ..Material::MATTE_WHITE };
-        let lighting = Lighting {
-            ambient: LinearRgb::BLACK,
-            lights: vec![DirectionalLight { direction: Normal::Z, color: LinearRgb::WHITE }],
-        };
+        let red = Material::matte(LinearRgb::new(1.0, 0.0, 0.0));
+        let lighting = Lighting::new(LinearRgb::BLACK, vec![Light::directional(Normal::Z, LinearRgb::WHITE)]);
         let materials = [Material::MATTE_WHITE, Material::MATTE_WHITE, red];
-        let make = |m: &[Material]| ShadeTable::new(&table, LightingModel::Lambert, m, &lighting, Normal::Z);
+        let make = |m: &[Material]| ShadeTable::new(&table, m, &lighting, Normal::Z, Vec3::ZERO);
         let shades = make(&materials).unwrap();
         assert!(shades.entries()[0].diffuse.g > 0.0 && shades.entries()[1].diffuse.g == 0.0);
         assert_eq!(shades.entries()[2].diffuse, LinearRgb::new(1.0, 0.0, 0.0));

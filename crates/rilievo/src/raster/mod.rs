@@ -12,10 +12,10 @@
 //! let camera = surface::Camera::orbit(mesh.bounding_sphere(), 0.0, 0.3, 1.1, 0.6, 1.0)?;
 //! let scene = raster::Scene {
 //!     objects: vec![object],
-//!     lighting: light::Lighting {
-//!         ambient: LinearRgb::gray(0.05),
-//!         lights: vec![light::DirectionalLight { direction: Normal::X, color: LinearRgb::WHITE }],
-//!     },
+//!     lighting: light::Lighting::new(
+//!         LinearRgb::gray(0.05),
+//!         vec![light::Light::directional(Normal::X, LinearRgb::WHITE)],
+//!     ),
 //!     camera,
 //! };
 //! let frame = raster::prepare(&scene, raster::Method::Exact, raster::TextureFilter::Trilinear)?;

@@ -53,7 +53,7 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampli
             .iter()
             .fold(LinearRgb::BLACK, |sum, tap| sum + base.levels.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
     });
-    shade.over(base)
+    shade.over(base, object.blend)
 }
 
 /// A clipped, projected triangle.

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::light::{Lighting, LightingModel, Material, Shade, shade};
+use crate::light::{Lighting, Material, Shade, shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Space};
 use crate::raster::scene::{Detail, Fragment, Object};
@@ -13,7 +13,6 @@ use crate::surface::Frame;
 pub(in crate::raster) struct Exact<'a> {
     detail: Detail<'a>,
     materials: &'a [Material],
-    model: LightingModel,
     lighting: Lighting<ObjectSpace>,
     eye: Vec3,
 }
@@ -21,7 +20,7 @@ pub(in crate::raster) struct Exact<'a> {
 impl<'a> Exact<'a> {
     /// For an eye at `eye` in object space.
     pub(in crate::raster) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
-        Self { detail: object.detail, materials: object.materials, model: object.model, lighting, eye }
+        Self { detail: object.detail, materials: object.materials, lighting, eye }
     }
 
     pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
@@ -37,7 +36,8 @@ impl<'a> Exact<'a> {
             };
             let normal = if fragment.back_facing { Normal::from_unit(-normal.vec()) } else { normal };
             let material = &self.materials[usize::from(part.material)];
-            total = total.add_weighted(shade(self.model, material, &self.lighting, normal, view), part.weight);
+            let shade = shade(material, &self.lighting, normal, view, fragment.position);
+            total = total.add_weighted(shade, part.weight);
         }
         total
     }

@@ -26,8 +26,9 @@ impl<'a> Table<'a> {
             return Err(Error::Missing { what: "index map", remedy });
         };
         // One view direction for the whole object: from its middle, where the error is shared out evenly.
-        let view = Normal::new_or(eye - object.mesh.bounding_sphere().0, Normal::Z);
-        let light = |table: &NormalTable<_>| ShadeTable::new(table, object.model, object.materials, lighting, view);
+        let middle = object.mesh.bounding_sphere().0;
+        let view = Normal::new_or(eye - middle, Normal::Z);
+        let light = |table: &NormalTable<_>| ShadeTable::new(table, object.materials, lighting, view, middle);
         let front = light(map.table())?;
         let back = if object.double_sided {
             let reversed = map.table().normals().iter().map(|n| Normal::from_unit(-n.vec())).collect();
