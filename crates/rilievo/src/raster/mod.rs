@@ -31,6 +31,7 @@ mod reference;
 mod scene;
 mod target;
 mod texture;
+pub mod vectors;
 
 pub use frame::{Frame, prepare};
 pub use reference::draw;
