@@ -3,9 +3,8 @@
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::mip::MipChain;
-use crate::raster::exact::Exact;
+use crate::raster::reference::{Exact, Table};
 use crate::raster::scene::{Detail, Method, Object, Scene};
-use crate::raster::table::Table;
 use crate::raster::texture::TextureFilter;
 
 /// The shading of one object for one frame.

@@ -26,18 +26,16 @@
 //! ```
 
 mod clip;
-mod draw;
-mod exact;
 mod frame;
+mod reference;
 pub mod scanline;
 mod scene;
-mod table;
 mod target;
 mod texture;
 pub mod vectors;
 
-pub use draw::draw;
 pub use frame::{Frame, prepare};
+pub use reference::draw;
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::Target;
 pub use texture::TextureFilter;

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::raster::draw::{ScreenTriangle, set_up};
+use crate::raster::reference::{ScreenTriangle, set_up};
 use crate::raster::scanline::difference::{OnEdge, OnRow, Walk};
 use crate::raster::scanline::place::Place;
 use crate::raster::scene::{Object, Scene};

@@ -57,20 +57,20 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampli
 }
 
 /// A clipped, projected triangle.
-pub(super) struct ScreenTriangle {
-    pub(super) shape: Triangle,
+pub(in crate::raster) struct ScreenTriangle {
+    pub(in crate::raster) shape: Triangle,
     /// Seen from behind.
-    pub(super) back_facing: bool,
-    pub(super) corners: [Corner; 3],
+    pub(in crate::raster) back_facing: bool,
+    pub(in crate::raster) corners: [Corner; 3],
     /// Change of the screen barycentrics to the next pixel to the right and below.
     lambda_dx: [f64; 3],
     lambda_dy: [f64; 3],
     /// Vertices of the triangle before clipping.
-    pub(super) vertices: [u32; 3],
+    pub(in crate::raster) vertices: [u32; 3],
 }
 
 /// Transforms, clips and projects all triangles of an object; drops what is behind, outside, or turned away.
-pub(super) fn set_up(object: &Object<'_>, scene: &Scene<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
+pub(in crate::raster) fn set_up(object: &Object<'_>, scene: &Scene<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
     let mesh = object.mesh;
     let view_projection = scene.camera.view_projection(width as f32 / height as f32);
     let to_clip = |p: &Vec3| (view_projection * object.pose.point_to_world(*p).extend(1.0)).as_dvec4();
@@ -109,7 +109,7 @@ fn barycentric_gradients([a, b, c]: [DVec2; 3]) -> [[f64; 3]; 2] {
 
 impl ScreenTriangle {
     /// Depth at screen barycentrics `lambda`: linear on the screen.
-    pub(super) fn depth(&self, lambda: [f64; 3]) -> f32 {
+    pub(in crate::raster) fn depth(&self, lambda: [f64; 3]) -> f32 {
         self.corners.iter().zip(lambda).map(|(c, l)| c.position.z / c.position.w * l).sum::<f64>() as f32
     }
 
@@ -127,7 +127,7 @@ impl ScreenTriangle {
         (numerators, denominator)
     }
 
-    pub(super) fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
+    pub(in crate::raster) fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
         let (numerators, denominator) = self.over_w(lambda);
         let weights = numerators.map(|n| n / denominator);
         // d(n / d) = (dn − n / d · dd) / d: at the pixel itself, because a step to the next pixel may leave the triangle

@@ -10,7 +10,7 @@ use crate::raster::texture::{Footprint, Sampling, Taps};
 use crate::surface::Frame;
 
 /// Filters the normals, normalises, and evaluates the lighting model with the pixel's own view direction.
-pub(super) struct Exact<'a> {
+pub(in crate::raster) struct Exact<'a> {
     detail: Detail<'a>,
     materials: &'a [Material],
     lighting: Lighting<ObjectSpace>,
@@ -19,11 +19,11 @@ pub(super) struct Exact<'a> {
 
 impl<'a> Exact<'a> {
     /// For an eye at `eye` in object space.
-    pub(super) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
+    pub(in crate::raster) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
         Self { detail: object.detail, materials: object.materials, lighting, eye }
     }
 
-    pub(super) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
+    pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let smooth = Normal::new_or(fragment.normal, Normal::Z);
         let view = Normal::new_or(self.eye - fragment.position, smooth);
         let frame = Frame::from_mikk(fragment.normal, fragment.tangent);
