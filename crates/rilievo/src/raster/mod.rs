@@ -35,7 +35,7 @@ mod texture;
 pub mod vectors;
 
 pub use frame::{Frame, prepare};
-pub use reference::draw;
+pub use reference::{bake_light_map, draw};
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::Target;
 pub use texture::TextureFilter;

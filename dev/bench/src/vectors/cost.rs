@@ -7,7 +7,7 @@ use anyhow::Result;
 use glam::{DVec2, Vec3};
 use rilievo::Grid;
 use rilievo::fill::Triangle;
-use rilievo::raster::scanline::{Setup, Stage, interpolate, set_up_denominator};
+use rilievo::raster::scanline::{LeftEdges, Setup, Stage, interpolate, set_up_denominator};
 use rilievo::raster::vectors::{Interpolation, Midpoints};
 
 /// The torus of Table 2 has 800 polygons.
@@ -62,7 +62,7 @@ fn setup(rounds: usize, report: &mut Report) -> Result<()> {
     for (two_left, paper) in [(false, 24.7 / 16.1), (true, 26.2 / 16.4)] {
         let triangles = triangles(two_left);
         let all = |setup| {
-            let one = |(shape, corners): &(Triangle, [Vec3; 3])| set_up_denominator(setup, shape, corners, SIDE);
+            let one = |(edges, corners): &(LeftEdges, [Vec3; 3])| set_up_denominator(setup, edges, corners);
             Ok(triangles.iter().map(one).sum::<f32>())
         };
         let times = duel(rounds, || all(Setup::Normalized), || all(Setup::Actual))?;
@@ -79,7 +79,7 @@ fn setup(rounds: usize, report: &mut Report) -> Result<()> {
 }
 
 /// Triangles whose middle corner is on the left, or on the right, with unit vectors at their corners.
-fn triangles(two_left: bool) -> Vec<(Triangle, [Vec3; 3])> {
+fn triangles(two_left: bool) -> Vec<(LeftEdges, [Vec3; 3])> {
     let mut random = testkit::Random::new(11);
     let mut out = Vec::with_capacity(TRIANGLES);
     while out.len() < TRIANGLES {
@@ -90,7 +90,7 @@ fn triangles(two_left: bool) -> Vec<(Triangle, [Vec3; 3])> {
             top.lerp(bottom, in_range(0.2, 0.8)) + DVec2::X * in_range(10.0, 60.0) * if two_left { -1.0 } else { 1.0 };
         let mut unit = || Vec3::new(in_range(-0.5, 0.5) as f32, in_range(-0.5, 0.5) as f32, 1.0).normalize();
         let corners = [unit(), unit(), unit()];
-        out.extend(Triangle::new([top, middle, bottom]).map(|shape| (shape, corners)));
+        out.extend(Triangle::new([top, middle, bottom]).map(|shape| (LeftEdges::new(&shape, SIDE), corners)));
     }
     out
 }

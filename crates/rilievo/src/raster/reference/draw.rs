@@ -4,6 +4,7 @@ use glam::{DVec2, DVec4, Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
 use crate::fill::Triangle;
+use crate::light::Shade;
 use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::frame::{Frame, Shading};
@@ -24,17 +25,27 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     for (object, shading) in frame.scene.objects.iter().zip(&frame.shadings) {
         let triangles = set_up(object, frame.scene, (width, height));
         let sampling = Sampling { filter: frame.filter, edges: object.edges, repeat: Vec2::ONE };
+        let fields = match shading {
+            Shading::Interpolated(shading) => shading.fields(&triangles),
+            _ => Vec::new(),
+        };
         let band_len = width as usize * BAND_ROWS;
         par::for_each_row(target.pixels.texels_mut(), band_len, |band, pixels| {
             let first_row = (band * BAND_ROWS) as u32;
             let rows = first_row..first_row + (pixels.len() / width as usize) as u32;
-            for triangle in &triangles {
+            for (i, triangle) in triangles.iter().enumerate() {
                 triangle.shape.for_each_pixel(0..width, rows.clone(), |x, y, lambda| {
                     let pixel = &mut pixels[(y - first_row) as usize * width as usize + x as usize];
                     let depth = triangle.depth(lambda);
                     if depth < pixel.depth {
                         let fragment = triangle.fragment(object.mesh, lambda);
-                        let color = color(object, shading, &fragment, sampling);
+                        let shade = match (shading, fields.get(i)) {
+                            (Shading::Interpolated(shading), Some(fields)) => {
+                                shading.shade(&fragment, sampling, fields, (x, y))
+                            }
+                            _ => shade(shading, &fragment, sampling),
+                        };
+                        let color = shade.over(base_color(object, &fragment, sampling), object.blend);
                         *pixel = Pixel { color, depth };
                     }
                 });
@@ -43,17 +54,24 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     }
 }
 
-fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
-    let shade = match shading {
+/// What a shading that needs no more than the fragment makes of it.
+fn shade(shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> Shade {
+    match shading {
         Shading::Table(table) => table.shade(fragment, sampling),
         Shading::Exact(exact) => exact.shade(fragment, sampling),
-    };
-    let base = object.base_color.map_or(LinearRgb::WHITE, |base| {
+        Shading::Static(baked) => baked.shade(fragment, sampling),
+        // Vectors belong to a triangle; there are as many fields as triangles.
+        Shading::Interpolated(_) => Shade::default(),
+    }
+}
+
+/// The base colour under a pixel; white without a map of it.
+pub(in crate::raster) fn base_color(object: &Object<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
+    object.base_color.map_or(LinearRgb::WHITE, |base| {
         Taps::gather(base.levels, Sampling { repeat: base.repeat, ..sampling }, &fragment.footprint)
             .iter()
             .fold(LinearRgb::BLACK, |sum, tap| sum + base.levels.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
-    });
-    shade.over(base, object.blend)
+    })
 }
 
 /// A clipped, projected triangle.
@@ -70,7 +88,11 @@ pub(in crate::raster) struct ScreenTriangle {
 }
 
 /// Transforms, clips and projects all triangles of an object; drops what is behind, outside, or turned away.
-pub(in crate::raster) fn set_up(object: &Object<'_>, scene: &Scene<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
+pub(in crate::raster) fn set_up(
+    object: &Object<'_>,
+    scene: &Scene<'_>,
+    (width, height): (u32, u32),
+) -> Vec<ScreenTriangle> {
     let mesh = object.mesh;
     let view_projection = scene.camera.view_projection(width as f32 / height as f32);
     let to_clip = |p: &Vec3| (view_projection * object.pose.point_to_world(*p).extend(1.0)).as_dvec4();

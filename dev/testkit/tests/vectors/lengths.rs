@@ -1,0 +1,1 @@
+//! How far from unit length interpolated vectors are.
