@@ -32,8 +32,8 @@ fn torus(n: u32) -> Result<Mesh> {
 
 /// The torus from the given side, lit by a lamp at the upper right of the eye.
 fn scene<'a>(object: Object<'a>, elevation: f32, azimuth: f32) -> Result<Scene<'a>> {
-    let camera = Camera::orbit(object.mesh.bounding_sphere(), azimuth, elevation, 1.02, 0.75, 1.0)?;
-    let ahead = (camera.eye() - Vec3::ZERO).normalize();
+    let camera = Camera::orbit(object.mesh.bounding_sphere(), azimuth, elevation, 1.02, 0.97, 1.0)?;
+    let ahead = camera.eye().normalize();
     let right = Vec3::Y.cross(ahead).normalize();
     let up = ahead.cross(right);
     let lamp = Light::point(camera.eye() + right * 2.0 + up * 3.0, LinearRgb::WHITE);

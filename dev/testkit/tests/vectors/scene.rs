@@ -34,11 +34,7 @@ pub(crate) fn materials() -> [Material; 1] {
     [Material::blinn_phong(LinearRgb::new(0.75, 0.45, 0.3), LinearRgb::gray(0.5), 32.0)]
 }
 
-pub(crate) fn object<'a>(
-    mesh: &'a Mesh,
-    bumps: &'a NormalLevels<Tangent>,
-    materials: &'a [Material],
-) -> Object<'a> {
+pub(crate) fn object<'a>(mesh: &'a Mesh, bumps: &'a NormalLevels<Tangent>, materials: &'a [Material]) -> Object<'a> {
     let detail = Detail::Tangent { normals: &bumps.normals, repeat: Vec2::new(4.0, 2.0), materials: None };
     Object::new(mesh, detail, materials)
 }
