@@ -88,7 +88,7 @@ impl Object<'_> {
             LightingModel::BlinnPhong { shininess, .. } if layer.weight != 0.0 => shininess,
             _ => 0.0,
         };
-        self.materials.iter().flat_map(|m| m.layers()).map(exponent).fold(0.0, f32::max)
+        self.materials.iter().flat_map(Material::layers).map(exponent).fold(0.0, f32::max)
     }
 }
 

@@ -4,7 +4,6 @@ use glam::{DVec2, DVec4, Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
 use crate::fill::Triangle;
-use crate::light::Shade;
 use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::frame::{Frame, Shading};
@@ -39,11 +38,11 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
                     let depth = triangle.depth(lambda);
                     if depth < pixel.depth {
                         let fragment = triangle.fragment(object.mesh, lambda);
-                        let shade = match (shading, fields.get(i)) {
-                            (Shading::Interpolated(shading), Some(fields)) => {
-                                shading.shade(&fragment, sampling, fields, (x, y))
-                            }
-                            _ => shade(shading, &fragment, sampling),
+                        let shade = match shading {
+                            Shading::Table(table) => table.shade(&fragment, sampling),
+                            Shading::Exact(exact) => exact.shade(&fragment, sampling),
+                            Shading::Static(baked) => baked.shade(&fragment, sampling),
+                            Shading::Interpolated(vectors) => vectors.shade(&fragment, sampling, fields.get(i), (x, y)),
                         };
                         let color = shade.over(base_color(object, &fragment, sampling), object.blend);
                         *pixel = Pixel { color, depth };
@@ -51,17 +50,6 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
                 });
             }
         });
-    }
-}
-
-/// What a shading that needs no more than the fragment makes of it.
-fn shade(shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> Shade {
-    match shading {
-        Shading::Table(table) => table.shade(fragment, sampling),
-        Shading::Exact(exact) => exact.shade(fragment, sampling),
-        Shading::Static(baked) => baked.shade(fragment, sampling),
-        // Vectors belong to a triangle; there are as many fields as triangles.
-        Shading::Interpolated(_) => Shade::default(),
     }
 }
 

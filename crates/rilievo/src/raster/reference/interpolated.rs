@@ -80,15 +80,15 @@ impl<'a> Interpolated<'a> {
         Fields { origin: corners[0].to_array(), fields: (0..vertices.lights()).filter_map(field).collect() }
     }
 
-    /// The pixel (x, y) of a triangle with these fields.
+    /// The pixel (x, y) of a triangle with these fields; only ambient light without any.
     pub(in crate::raster) fn shade(
         &self,
         fragment: &Fragment,
         sampling: Sampling,
-        fields: &Fields,
+        fields: Option<&Fields>,
         (x, y): (u32, u32),
     ) -> Shade {
-        self.shade_by(fragment, sampling, |light| fields.at(light, x, y))
+        self.shade_by(fragment, sampling, |light| fields.map_or_else(Rotated::default, |f| f.at(light, x, y)))
     }
 
     /// A pixel at which light number `i` has the vectors `vectors(i)`.

@@ -77,8 +77,8 @@ impl<'a> Vertices<'a> {
         }
         let viewer = self.viewer(light);
         let mut lit = LitTriangle { corners: whole, vectors: [Rotated::default(); 3] };
-        for i in 0..3 {
-            let w = weights[i].map(|w| w as f32);
+        for (i, weights) in weights.iter().enumerate() {
+            let w = weights.map(|w| w as f32);
             // Corners of the mesh are known, whichever of them this is; only new ones are mixed.
             let known = w.iter().position(|&w| w == 1.0);
             lit.corners[i] = known.map_or_else(|| Corner::mixed(&whole, w), |k| whole[k]);
