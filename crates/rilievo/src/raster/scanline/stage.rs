@@ -84,7 +84,8 @@ where
     let depths = triangle.corners.map(|c| (c.position.z / c.position.w) as f32);
     let plane = Linear::on_normalized(depths).to_screen(&map);
     let (width, height) = depth.size();
-    let mut sum = 0.0;
+    // By components: a sum across them in every pixel would be work that no method has.
+    let mut sum = Rotated::default();
     for side in place.left(height) {
         let ([x, y], slope) = (side.start, side.left.slope);
         let (mut vectors, mut plane) = (field.on_edge(x, y, slope), plane.on_edge(x, y, slope));
@@ -93,8 +94,7 @@ where
             for kept in &mut depth.texels_mut()[row as usize * width as usize..][columns] {
                 if z.value() < *kept {
                     *kept = z.value();
-                    let Rotated { light: l, half: h } = along.value();
-                    sum += (l.x + l.y + l.z) + (h.x + h.y + h.z);
+                    sum = sum + along.value();
                 }
                 z.right();
                 along.right();
@@ -103,7 +103,7 @@ where
             plane.down();
         });
     }
-    sum
+    sum.light.element_sum() + sum.half.element_sum()
 }
 
 /// No vectors at all.
