@@ -7,6 +7,7 @@
 mod difference;
 mod field;
 mod outline;
+mod packed;
 mod place;
 mod setup;
 mod shade;

@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::raster::reference::{ScreenTriangle, set_up};
 use crate::raster::scanline::difference::{OnEdge, OnRow, Walk};
+use crate::raster::scanline::packed::{self, Packed, PackedNormalized};
 use crate::raster::scanline::place::Place;
 use crate::raster::scene::{Object, Scene};
 use crate::raster::vectors::{Field, Interpolation, Linear, Rotated, ToNormalized, Vertices};
@@ -66,9 +67,9 @@ fn object_sum(
         let place = Place::new(&triangle.shape);
         let field = Field::new(how, (&lit.corners, &lit.vectors), &place.sides, &viewer, shininess);
         sum += match field {
-            Some(Field::Linear(f)) => triangle_sum(f, triangle, &place, depth),
-            Some(Field::Normalized(f)) => triangle_sum(f, triangle, &place, depth),
-            Some(Field::Quadratic(f)) => triangle_sum(f, triangle, &place, depth),
+            Some(Field::Linear(f)) => triangle_sum(packed::linear(&f), triangle, &place, depth),
+            Some(Field::Normalized(f)) => triangle_sum(PackedNormalized::from(&f), triangle, &place, depth),
+            Some(Field::Quadratic(f)) => triangle_sum(packed::quadratic(&f), triangle, &place, depth),
             None => 0.0,
         };
     }
@@ -78,14 +79,14 @@ fn object_sum(
 /// Walks a triangle: sum of the vectors at the pixels that pass the depth test.
 fn triangle_sum<W>(field: W, triangle: &ScreenTriangle, place: &Place, depth: &mut Grid<f32>) -> f32
 where
-    W: Walk<Edge: OnEdge<Row: OnRow<Value = Rotated>>>,
+    W: Walk<Edge: OnEdge<Row: OnRow<Value = Packed>>>,
 {
     let Some(map) = ToNormalized::new(&place.sides) else { return 0.0 };
     let depths = triangle.corners.map(|c| (c.position.z / c.position.w) as f32);
     let plane = Linear::on_normalized(depths).to_screen(&map);
     let (width, height) = depth.size();
     // By components: a sum across them in every pixel would be work that no method has.
-    let mut sum = Rotated::default();
+    let mut sum = Packed::default();
     for side in place.left(height) {
         let ([x, y], slope) = (side.start, side.left.slope);
         let (mut vectors, mut plane) = (field.on_edge(x, y, slope), plane.on_edge(x, y, slope));
@@ -103,7 +104,8 @@ where
             plane.down();
         });
     }
-    sum.light.element_sum() + sum.half.element_sum()
+    let Rotated { light, half } = sum.vectors();
+    light.element_sum() + half.element_sum()
 }
 
 /// No vectors at all.
@@ -129,10 +131,10 @@ impl OnEdge for Nothing {
 }
 
 impl OnRow for Nothing {
-    type Value = Rotated;
+    type Value = Packed;
 
-    fn value(&self) -> Rotated {
-        Rotated::default()
+    fn value(&self) -> Packed {
+        Packed::default()
     }
 
     fn right(&mut self) {}

@@ -54,16 +54,17 @@ impl Normalized {
     /// The vectors divided by the roots of `squares`.
     #[inline]
     pub fn normalize(vectors: Rotated, squares: Vec2) -> Rotated {
-        Rotated { light: vectors.light * inverse_root(squares.x), half: vectors.half * inverse_root(squares.y) }
+        let [light, half] = [squares.x, squares.y].map(Self::inverse_root);
+        Rotated { light: vectors.light * light, half: vectors.half * half }
     }
-}
 
-/// 1/√x; finite where rounding made the square of a length zero or less.
-#[inline]
-fn inverse_root(x: f32) -> f32 {
-    // A comparison and not `max`, which has to look for NaN as well.
-    let x = if x > f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE };
-    1.0 / x.sqrt()
+    /// 1/√x; finite where rounding made the square of a length zero or less.
+    #[inline]
+    pub fn inverse_root(x: f32) -> f32 {
+        // A comparison and not `max`, which has to look for NaN as well.
+        let x = if x > f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE };
+        1.0 / x.sqrt()
+    }
 }
 
 /// Polynomials over the screen, in pixels from vertex 0 of the triangle.
