@@ -6,9 +6,9 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec4};
 
-use crate::raster::scanline::difference::{OnEdge, OnRow, QuadraticEdge, QuadraticRow, Walk};
+use crate::raster::scanline::difference::{LinearEdge, LinearRow, OnEdge, OnRow, QuadraticEdge, QuadraticRow, Walk};
 use crate::raster::vectors::{Linear, Normalized, Quadratic, Rotated, Value};
 
 /// L' and H', each with a fourth number.
@@ -24,11 +24,11 @@ impl Packed {
         Rotated { light: self.light.truncate(), half: self.half.truncate() }
     }
 
-    /// Each vector divided by the root of its fourth number.
+    /// Each vector divided by the root of its square.
     #[inline]
-    fn normalized(self) -> Self {
-        let root = |square: f32| Normalized::inverse_root(square);
-        Self { light: self.light * root(self.light.w), half: self.half * root(self.half.w) }
+    fn normalized(self, squares: Vec2) -> Self {
+        let [light, half] = [squares.x, squares.y].map(Normalized::inverse_root);
+        Self { light: self.light * light, half: self.half * half }
     }
 }
 
@@ -77,42 +77,38 @@ pub(super) fn quadratic(f: &Quadratic<Rotated>) -> Quadratic<Packed> {
     Quadratic { a: f.a.into(), b: f.b.into(), c: f.c.into(), d: f.d.into(), e: f.e.into(), f: f.f.into() }
 }
 
-/// Linear vectors whose squares of lengths, quadratic, are the fourth numbers: they cost no addition of their own then.
+/// Linear vectors and the squares of their lengths, apart.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PackedNormalized(Quadratic<Packed>);
+pub(super) struct PackedNormalized {
+    vectors: Linear<Packed>,
+    squares: Quadratic<Vec2>,
+}
 
 impl From<&Normalized> for PackedNormalized {
     fn from(f: &Normalized) -> Self {
-        let term = |vectors: Rotated, squares: glam::Vec2| Packed {
-            light: vectors.light.extend(squares.x),
-            half: vectors.half.extend(squares.y),
-        };
-        let none = Rotated { light: Vec3::ZERO, half: Vec3::ZERO };
-        let (v, s) = (&f.vectors, &f.squares);
-        Self(Quadratic {
-            a: term(none, s.a),
-            b: term(none, s.b),
-            c: term(none, s.c),
-            d: term(v.a, s.d),
-            e: term(v.b, s.e),
-            f: term(v.c, s.f),
-        })
+        Self { vectors: linear(&f.vectors), squares: f.squares }
     }
 }
 
 /// [`PackedNormalized`] on an edge.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PackedNormalizedEdge(QuadraticEdge<Packed>);
+pub(super) struct PackedNormalizedEdge {
+    vectors: LinearEdge<Packed>,
+    squares: QuadraticEdge<Vec2>,
+}
 
-/// [`PackedNormalized`] along a row: two additions, and a reciprocal root per vector.
+/// [`PackedNormalized`] along a row: one addition for each vector, two for each square, and a reciprocal root per vector.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PackedNormalizedRow(QuadraticRow<Packed>);
+pub(super) struct PackedNormalizedRow {
+    vectors: LinearRow<Packed>,
+    squares: QuadraticRow<Vec2>,
+}
 
 impl Walk for PackedNormalized {
     type Edge = PackedNormalizedEdge;
 
     fn on_edge(&self, x: f32, y: f32, slope: f32) -> PackedNormalizedEdge {
-        PackedNormalizedEdge(self.0.on_edge(x, y, slope))
+        PackedNormalizedEdge { vectors: self.vectors.on_edge(x, y, slope), squares: self.squares.on_edge(x, y, slope) }
     }
 }
 
@@ -121,12 +117,13 @@ impl OnEdge for PackedNormalizedEdge {
 
     #[inline]
     fn row(&self, ahead: f32) -> PackedNormalizedRow {
-        PackedNormalizedRow(self.0.row(ahead))
+        PackedNormalizedRow { vectors: self.vectors.row(ahead), squares: self.squares.row(ahead) }
     }
 
     #[inline]
     fn down(&mut self) {
-        self.0.down();
+        self.vectors.down();
+        self.squares.down();
     }
 }
 
@@ -135,11 +132,12 @@ impl OnRow for PackedNormalizedRow {
 
     #[inline]
     fn value(&self) -> Packed {
-        self.0.value().normalized()
+        self.vectors.value().normalized(self.squares.value())
     }
 
     #[inline]
     fn right(&mut self) {
-        self.0.right();
+        self.vectors.right();
+        self.squares.right();
     }
 }
