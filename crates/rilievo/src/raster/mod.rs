@@ -27,10 +27,12 @@
 
 mod clip;
 mod frame;
+mod project;
 mod reference;
 mod scene;
 mod target;
 mod texture;
+pub mod tile;
 pub mod vectors;
 
 pub use frame::{Frame, prepare};

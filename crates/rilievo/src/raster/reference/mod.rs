@@ -5,5 +5,6 @@ mod exact;
 mod table;
 
 pub use draw::draw;
+pub(super) use draw::color;
 pub(super) use exact::Exact;
 pub(super) use table::Table;
