@@ -11,6 +11,7 @@ use glam::{DMat4, Mat4, Vec4};
 
 use crate::fill::SUBPIXEL_BITS;
 use crate::pose::Pose;
+use crate::simd::three;
 use crate::surface::Camera;
 
 /// The longest side of a picture, in pixels. Differences of snapped coordinates then fit 23 bits (see [`Projection::guard_band`]).
@@ -90,26 +91,39 @@ impl Projection {
     /// Coordinates of points that are outside are garbage.
     #[inline(always)]
     pub(super) fn project<S: Simd>(&self, simd: S, p: [f32x16<S>; 3]) -> ([ScreenVertex; 16], [u8; 16]) {
-        let c = &self.columns;
-        let row = |i: usize| p[0] * c[0][i] + p[1] * c[1][i] + p[2] * c[2][i] + c[3][i];
-        let [cx, cy, cz, cw] = [row(0), row(1), row(2), row(3)];
+        let [cx, cy, cz] = three!(i => self.row(p, i));
+        let cw = self.row(p, 3);
         let g = cw * self.guard_band;
         let zero = f32x16::splat(simd, 0.0);
-        let distances = [cz, cw - cz, g - cx, g + cx, g - cy, g + cy].map(|d| d.simd_ge(zero).to_bitmask());
-        let (x, y) = ((cx / cw * 0.5 + 0.5) * self.size[0], (0.5 - cy / cw * 0.5) * self.size[1]);
-        let snap = |v: f32x16<S>| -> [i32; 16] { (v * ONE).round_ties_even().to_int::<i32x16<S>>().into() };
-        let (x, y) = (snap(x), snap(y));
-        let (z, inv_w): ([f32; 16], [f32; 16]) = ((cz / cw).into(), (1.0 / cw).into());
-        let vertices = std::array::from_fn(|i| ScreenVertex { x: x[i], y: y[i], z: z[i], inv_w: inv_w[i] });
-        let inside_all = distances.iter().fold(u64::MAX, |all, d| all & d);
-        let outside = std::array::from_fn(|i| match inside_all >> i & 1 {
-            1 => 0,
-            _ => distances.iter().enumerate().fold(0, |bits, (plane, d)| bits | u8::from(d >> i & 1 == 0) << plane),
-        });
+        let mut inside_all = u64::MAX;
+        let mut inside = [0; 6];
+        for (bits, distance) in inside.iter_mut().zip([cz, cw - cz, g - cx, g + cx, g - cy, g + cy]) {
+            *bits = distance.simd_ge(zero).to_bitmask();
+            inside_all &= *bits;
+        }
+        let x = ((cx / cw * 0.5 + 0.5) * self.size[0] * ONE).round_ties_even().to_int::<i32x16<S>>();
+        let y = ((0.5 - cy / cw * 0.5) * self.size[1] * ONE).round_ties_even().to_int::<i32x16<S>>();
+        let (z, inv_w) = (cz / cw, 1.0 / cw);
+        let mut vertices = [ScreenVertex::default(); 16];
+        let mut outside = [0; 16];
+        for i in 0..16 {
+            vertices[i] = ScreenVertex { x: x[i], y: y[i], z: z[i], inv_w: inv_w[i] };
+            if inside_all >> i & 1 == 0 {
+                for (plane, bits) in inside.iter().enumerate() {
+                    outside[i] |= u8::from(bits >> i & 1 == 0) << plane;
+                }
+            }
+        }
         (vertices, outside)
     }
-}
 
+    /// One of the four clip coordinates.
+    #[inline(always)]
+    fn row<S: Simd>(&self, p: [f32x16<S>; 3], i: usize) -> f32x16<S> {
+        let c = &self.columns;
+        p[0] * c[0][i] + p[1] * c[1][i] + p[2] * c[2][i] + c[3][i]
+    }
+}
 
 #[cfg(test)]
 mod tests {

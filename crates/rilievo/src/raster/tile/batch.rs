@@ -1,14 +1,15 @@
 //! One object in one tile: blocks of pixels that its triangles own, shaded by whatever method.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x16, mask32x16, u32x16};
+use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16, mask32x16, u32x16};
 
 use super::buffer::{BLOCK, BLOCKS, Tile};
-use super::cover::{Bounds, Edges, columns, pixels};
+use super::cover::{Bounds, COUNT, Edges, columns, pixels};
 use super::front::{Chunk, Front, Triangle, Vertex};
 use super::planes::{Plane, Sides};
 use crate::fill::SUBPIXEL_BITS;
 use crate::raster::project::ScreenVertex;
+use crate::simd::three;
 
 /// A way to shade, over `N` attributes of each vertex.
 pub(super) trait Shader<const N: usize>: Sync {
@@ -52,6 +53,9 @@ pub(super) struct Block<S: Simd> {
 
 /// What the picture wants of an object, whatever shades it.
 pub(super) trait Batch: Sync {
+    /// Whether the object may touch a tile.
+    fn touches(&self, number: usize) -> bool;
+
     /// Draws the part in a tile, given by its number and its first pixel.
     fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]);
 }
@@ -63,10 +67,11 @@ pub(super) struct Shaded<'a, Sh, const N: usize> {
 }
 
 impl<Sh: Shader<N>, const N: usize> Batch for Shaded<'_, Sh, N> {
+    fn touches(&self, number: usize) -> bool {
+        self.front.chunks.iter().any(|chunk| !chunk.of_tile(number).is_empty())
+    }
+
     fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]) {
-        if self.front.chunks.iter().all(|chunk| chunk.of_tile(number).is_empty()) {
-            return;
-        }
         dispatch!(level, simd => self.draw_lanes(simd, tile, number, origin));
     }
 }
@@ -136,10 +141,11 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
                 }
                 let farthest = (bits == 0xffff).then(|| nearest_corner.farthest(&depth, x0, y0));
                 tile.set_depth(block, visible.select(z, before), farthest);
-                let set_up = set_up.get_or_insert_with(|| {
-                    let attributes = triangle.corners.map(|corner| self.attributes_of(chunk, corner));
-                    self.shader.set_up(&Seen { triangle, corners, attributes, sides, chunk })
-                });
+                if set_up.is_none() {
+                    let attributes = three!(i => self.attributes_of(chunk, triangle.corners[i]));
+                    set_up = Some(self.shader.set_up(&Seen { triangle, corners, attributes, sides, chunk }));
+                }
+                let Some(set_up) = &set_up else { continue };
                 let color = self.shader.shade(simd, set_up, &Block { x, y, visible });
                 let color = if bits == 0xffff { color } else { visible.select(color, tile.color(simd, block)) };
                 tile.set_color(block, color);
@@ -177,7 +183,8 @@ impl BlockReach {
     fn before<S: Simd>(&self, simd: S, depth: &Plane, x: f32, y: f32, farthest: f32x16<S>) -> u32 {
         let first = depth.at_corner + depth.dx * x + depth.dy * y + self.nearer;
         let step = depth.dx * BLOCK as f32;
-        let nearest = f32x16::from_fn(simd, |lane| lane as f32).mul_add(f32x16::splat(simd, step), f32x16::splat(simd, first));
+        let lanes = i32x16::load_array_ref(simd, &COUNT).to_float::<f32x16<S>>();
+        let nearest = lanes.mul_add(f32x16::splat(simd, step), f32x16::splat(simd, first));
         // Depths are rounded differently by the pixel: some room, so that nothing is passed over that would be seen.
         let room = f32x16::splat(simd, 1e-5);
         (nearest - room).simd_lt(farthest).to_bitmask() as u32

@@ -23,8 +23,6 @@ pub(super) struct Tile {
     color: [[u32; BLOCK * BLOCK]; BLOCKS * BLOCKS],
     /// For each block, no pixel lies farther: what is hidden altogether need not be looked at.
     farthest: [[f32; BLOCKS]; BLOCKS],
-    /// Whether anything was drawn.
-    touched: bool,
 }
 
 impl Tile {
@@ -34,8 +32,14 @@ impl Tile {
             depth: [[NOTHING; 16]; BLOCKS * BLOCKS],
             color: [[background; 16]; BLOCKS * BLOCKS],
             farthest: [[NOTHING; BLOCKS]; BLOCKS],
-            touched: false,
         }
+    }
+
+    /// Makes it empty again.
+    pub(super) fn clear(&mut self, background: u32) {
+        self.depth.fill([NOTHING; 16]);
+        self.color.fill([background; 16]);
+        self.farthest.fill([NOTHING; BLOCKS]);
     }
 
     /// Depths of a block.
@@ -52,7 +56,6 @@ impl Tile {
             let place = &mut self.farthest[block / BLOCKS][block % BLOCKS];
             *place = place.min(farthest);
         }
-        self.touched = true;
     }
 
     /// For the blocks of a row: no pixel lies farther.
@@ -82,12 +85,18 @@ impl Tile {
             let row: &mut [u32] = bytemuck::cast_slice_mut(&mut row[x..x + width]);
             let blocks = y / BLOCK * BLOCKS..(y / BLOCK + 1) * BLOCKS;
             let line = y % BLOCK * BLOCK;
-            for (pixels, block) in row.chunks_mut(BLOCK).zip(&self.color[blocks.clone()]) {
-                pixels.copy_from_slice(&block[line..line + pixels.len()]);
+            // Four pixels at a time: a copy of constant length is an instruction, any other a call.
+            let (whole, rest) = row.as_chunks_mut::<BLOCK>();
+            let split = whole.len();
+            for (pixels, block) in whole.iter_mut().zip(&self.color[blocks.clone()]) {
+                *pixels = std::array::from_fn(|i| block[line + i]);
             }
-            if self.touched {
-                let depths = self.depth[blocks].iter().flat_map(|block| &block[line..line + BLOCK]);
-                covered += depths.take(width).map(|&d| u64::from(d != NOTHING)).sum::<u64>();
+            if let Some(block) = self.color[blocks.clone()].get(split) {
+                rest.copy_from_slice(&block[line..line + rest.len()]);
+            }
+            for (i, block) in self.depth[blocks].iter().enumerate() {
+                let inside = width.saturating_sub(i * BLOCK).min(BLOCK);
+                covered += block[line..line + inside].iter().map(|&d| u64::from(d != NOTHING)).sum::<u64>();
             }
         }
         covered

@@ -10,6 +10,7 @@ use fearless_simd::{Simd, f32x16, i32x16, mask32x16};
 use super::buffer::{BLOCK, BLOCKS, TILE};
 use crate::fill::SUBPIXEL_BITS;
 use crate::raster::project::ScreenVertex;
+use crate::simd::three;
 
 const ONE: i64 = 1 << SUBPIXEL_BITS;
 
@@ -75,16 +76,15 @@ impl Edges {
     /// The values of the three edges in a block of pixels, relative to its first.
     #[inline(always)]
     pub(super) fn over_block<S: Simd>(&self, simd: S) -> [i32x16<S>; 3] {
-        let x = i32x16::from_fn(simd, |lane| (lane % BLOCK) as i32);
-        let y = i32x16::from_fn(simd, |lane| (lane / BLOCK) as i32);
-        [0, 1, 2].map(|i| x * self.a[i] + y * self.b[i])
+        let (x, y) = (i32x16::load_array_ref(simd, &COLUMN), i32x16::load_array_ref(simd, &ROW));
+        three!(i => x * self.a[i] + y * self.b[i])
     }
 
     /// Which pixels of the block at column and row (`bx`, `by`) are inside.
     #[inline(always)]
     pub(super) fn inside<S: Simd>(&self, simd: S, over_block: &[i32x16<S>; 3], bx: i32, by: i32) -> mask32x16<S> {
         let size = BLOCK as i32;
-        let [e0, e1, e2] = [0, 1, 2].map(|i| over_block[i] + (self.c[i] + size * (bx * self.a[i] + by * self.b[i])));
+        let [e0, e1, e2] = three!(i => over_block[i] + (self.c[i] + size * (bx * self.a[i] + by * self.b[i])));
         // One negative value makes the sign of all negative.
         (e0 | e1 | e2).simd_ge(i32x16::splat(simd, 0))
     }
@@ -93,15 +93,14 @@ impl Edges {
     #[inline(always)]
     pub(super) fn row<S: Simd>(&self, simd: S, by: i32) -> (u32, u32) {
         let size = BLOCK as i32;
-        let column = i32x16::from_fn(simd, |lane| lane as i32);
+        let column = i32x16::load_array_ref(simd, &COUNT);
         let mut some = i32x16::splat(simd, 0);
         let mut all = some;
         for i in 0..3 {
             let values = column * (self.a[i] * size) + (self.c[i] + size * by * self.b[i]);
             // The largest and the smallest value in a block are at corners that only the direction of the edge decides.
-            let reach = |step: i32| (size - 1) * step;
-            let most = reach(self.a[i].max(0)) + reach(self.b[i].max(0));
-            let least = reach(self.a[i].min(0)) + reach(self.b[i].min(0));
+            let most = (size - 1) * (self.a[i].max(0) + self.b[i].max(0));
+            let least = (size - 1) * (self.a[i].min(0) + self.b[i].min(0));
             some = some | (values + most);
             all = all | (values + least);
         }
@@ -119,7 +118,12 @@ pub(super) fn columns(x: [i32; 2]) -> u32 {
 /// x and y of the pixels of a block, relative to its first.
 #[inline(always)]
 pub(super) fn pixels<S: Simd>(simd: S) -> [f32x16<S>; 2] {
-    [f32x16::from_fn(simd, |lane| (lane % BLOCK) as f32), f32x16::from_fn(simd, |lane| (lane / BLOCK) as f32)]
+    [i32x16::load_array_ref(simd, &COLUMN).to_float(), i32x16::load_array_ref(simd, &ROW).to_float()]
 }
+
+/// Column and row of each lane in a block, and the lanes' own numbers.
+const COLUMN: [i32; 16] = [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3];
+const ROW: [i32; 16] = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
+pub(super) const COUNT: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 const _: () = assert!(BLOCKS == 16 && BLOCK * BLOCK == 16, "a row of blocks, and a block of pixels, are sixteen lanes");

@@ -11,6 +11,7 @@ use crate::par;
 use crate::raster::clip::clip;
 use crate::raster::project::{Projection, ScreenVertex};
 use crate::raster::scene::Object;
+use crate::simd::three;
 use crate::surface::Mesh;
 
 /// Vertices that one task projects.
@@ -314,8 +315,11 @@ fn project_all<S: Simd>(
 ) {
     let parts = positions.chunks(16).zip(vertices.chunks_mut(16)).zip(outside.chunks_mut(16));
     for ((positions, vertices), outside) in parts {
-        let lane = |k: usize| f32x16::from_fn(simd, |i| positions[i.min(positions.len() - 1)][k]);
-        let (found, planes) = projection.project(simd, [lane(0), lane(1), lane(2)]);
+        let mut lanes = [[0.0; 16]; 3];
+        for (i, position) in positions.iter().enumerate() {
+            (lanes[0][i], lanes[1][i], lanes[2][i]) = (position.x, position.y, position.z);
+        }
+        let (found, planes) = projection.project(simd, three!(k => f32x16::load_array_ref(simd, &lanes[k])));
         vertices.copy_from_slice(&found[..vertices.len()]);
         outside.copy_from_slice(&planes[..outside.len()]);
     }

@@ -108,7 +108,7 @@ impl<'a> Renderer<'a> {
         let mut batches: Vec<Box<dyn Batch + '_>> = Vec::with_capacity(scene.objects.len());
         for (object, front) in scene.objects.iter().zip(&mut self.fronts) {
             let projection = Projection::new(&scene.camera, &object.pose, size);
-            let place = Place { level, object, projection: &projection, size, front };
+            let place = Place { level, object, projection, size, front };
             batches.push(choose(scene, options, maps, place, &mut drawn.skipped)?);
         }
         let background = word(options.background.map_or(Rgba8::default(), LinearRgb::to_srgb));
@@ -123,11 +123,20 @@ fn draw_tiles(batches: &[Box<dyn Batch + '_>], level: Level, background: u32, pi
     let covered = std::sync::atomic::AtomicU64::new(0);
     par::for_each_row(picture.texels_mut(), width * TILE, |row, pixels| {
         let mut sum = 0;
+        let mut tile = Tile::new(background);
         for column in 0..tiles.columns {
             let origin = [column as usize * TILE, row * TILE];
             let number = row * tiles.columns as usize + column as usize;
-            let mut tile = Tile::new(background);
-            for batch in batches {
+            let mut touching = batches.iter().filter(|batch| batch.touches(number)).peekable();
+            if touching.peek().is_none() {
+                for row in pixels.chunks_mut(width) {
+                    let row: &mut [u32] = bytemuck::cast_slice_mut(&mut row[origin[0]..(origin[0] + TILE).min(width)]);
+                    row.fill(background);
+                }
+                continue;
+            }
+            tile.clear(background);
+            for batch in touching {
                 batch.draw(level, &mut tile, number, origin.map(|o| o as i32));
             }
             sum += tile.copy_to(pixels, width, origin[0]);
@@ -141,7 +150,7 @@ fn draw_tiles(batches: &[Box<dyn Batch + '_>], level: Level, background: u32, pi
 struct Place<'f, 'o> {
     level: Level,
     object: &'o Object<'o>,
-    projection: &'f Projection,
+    projection: Projection,
     size: (u32, u32),
     front: &'f mut Front,
 }
@@ -156,7 +165,7 @@ impl<'f> Place<'f, '_> {
     where
         'f: 's,
     {
-        let found = self.front.run(self.level, self.object, self.projection, self.size, |v, w| shader.attributes(v, w));
+        let found = self.front.run(self.level, self.object, &self.projection, self.size, |v, w| shader.attributes(v, w));
         skipped.add(found);
         Box::new(Shaded { front: &*self.front, shader })
     }

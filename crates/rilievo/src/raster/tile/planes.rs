@@ -9,6 +9,7 @@ use fearless_simd::{Simd, f32x16};
 
 use crate::fill::SUBPIXEL_BITS;
 use crate::raster::project::ScreenVertex;
+use crate::simd::{splat, three};
 
 /// Two sides of a screen triangle from its first corner, and one over twice its area; pixels.
 #[derive(Debug, Clone, Copy)]
@@ -69,8 +70,7 @@ impl Plane {
     /// Its value at sixteen places.
     #[inline(always)]
     pub(super) fn at<S: Simd>(&self, simd: S, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
-        let splat = |v| f32x16::splat(simd, v);
-        splat(self.dx).mul_add(x, splat(self.dy).mul_add(y, splat(self.at_corner)))
+        splat(simd, self.dx).mul_add(x, splat(simd, self.dy).mul_add(y, splat(simd, self.at_corner)))
     }
 }
 
@@ -92,6 +92,6 @@ impl<const N: usize> Planes<N> {
     /// Three that follow each other, at sixteen places.
     #[inline(always)]
     pub(super) fn vector<S: Simd>(&self, simd: S, first: usize, x: f32x16<S>, y: f32x16<S>) -> [f32x16<S>; 3] {
-        [0, 1, 2].map(|i| self.get(first + i).at(simd, x, y))
+        three!(i => self.get(first + i).at(simd, x, y))
     }
 }

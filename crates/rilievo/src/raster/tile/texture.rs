@@ -9,7 +9,7 @@ use crate::grid::{Edges, Grid};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Space, decode_u8, encode_u8};
 use crate::raster::texture::TextureFilter;
-use crate::simd::{gather, gather_u16, log2, recip};
+use crate::simd::{gather, gather_u16, log2, recip, splat, three, two};
 
 /// Words of a level in [`Texture::levels`]: where it begins, its width, its height.
 const LEVEL_WORDS: u32 = 3;
@@ -100,13 +100,14 @@ impl Texture {
                 ([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], 255.0)
             }
             _ => {
-                let [xy, z] = [0, 1].map(|k| gather(simd, &self.words, (at << 1) + k));
+                let first = at << 1;
+                let (xy, z) = (gather(simd, &self.words, first), gather(simd, &self.words, first + 1));
                 ([xy & 0xffff, xy >> 16, z], 65_535.0)
             }
         };
         let (scale, offset) = if signed { (2.0 / most, -1.0) } else { (1.0 / most, 0.0) };
         let (scale, offset) = (f32x16::splat(simd, scale), f32x16::splat(simd, offset));
-        codes.map(|c| c.bitcast::<i32x16<S>>().to_float::<f32x16<S>>().mul_add(scale, offset))
+        three!(k => float(codes[k]).mul_add(scale, offset))
     }
 
     /// Calls `tap(texel number, weight)` for each texel that a pixel sees; the weights sum to 1.
@@ -118,26 +119,25 @@ impl Texture {
         at: &Footprint<S>,
         mut tap: impl FnMut(u32x16<S>, f32x16<S>),
     ) {
-        let splat = |v| f32x16::splat(simd, v);
         let repeat = [look.repeat.x, look.repeat.y];
-        let place = [0, 1].map(|k| place_in_copy(simd, at.uv[k], repeat[k], look.edges));
-        let base = [self.levels[1] as f32, self.levels[2] as f32].map(splat);
+        let place = two!(k => place_in_copy(simd, at.uv[k], repeat[k], look.edges));
+        let base = two!(k => splat(simd, self.levels[k + 1] as f32));
         let first = u32x16::splat(simd, 0);
         match look.filter {
             TextureFilter::Nearest => {
-                let [x, y] = [0, 1].map(|k| resolve(simd, (place[k] * base[k]).to_int(), base[k], look.edges));
-                tap(texel(first, base[0], x, y), splat(1.0));
+                let [x, y] = two!(k => resolve(simd, (place[k] * base[k]).to_int(), base[k], look.edges));
+                tap(texel(first, base[0], x, y), splat(simd, 1.0));
             }
-            TextureFilter::Bilinear => bilinear(simd, place, (first, base), look.edges, splat(1.0), &mut tap),
+            TextureFilter::Bilinear => bilinear(simd, place, (first, base), look.edges, splat(simd, 1.0), &mut tap),
             TextureFilter::Trilinear => {
                 let last = (self.levels.len() as u32 / LEVEL_WORDS - 1) as f32;
-                let lod = level_of_detail(simd, at, [0, 1].map(|k| base[k] * repeat[k]));
-                let lod = lod.max(splat(0.0)).min(splat(last));
+                let lod = level_of_detail(simd, at, two!(k => base[k] * repeat[k]));
+                let lod = lod.max(splat(simd, 0.0)).min(splat(simd, last));
                 let level = lod.floor();
                 let mix = lod - level;
                 let whole = level.to_int::<u32x16<S>>();
                 bilinear(simd, place, self.level(simd, whole), look.edges, 1.0 - mix, &mut tap);
-                if mix.simd_gt(splat(0.0)).any_true() {
+                if mix.simd_gt(splat(simd, 0.0)).any_true() {
                     let next = (whole + 1).min(u32x16::splat(simd, last as u32));
                     bilinear(simd, place, self.level(simd, next), look.edges, mix, &mut tap);
                 }
@@ -148,10 +148,15 @@ impl Texture {
     /// First texel and size of a level.
     #[inline(always)]
     fn level<S: Simd>(&self, simd: S, level: u32x16<S>) -> (u32x16<S>, [f32x16<S>; 2]) {
-        let word = |k: u32| gather(simd, &self.levels, level * LEVEL_WORDS + k);
-        let float = |w: u32x16<S>| w.bitcast::<i32x16<S>>().to_float::<f32x16<S>>();
-        (word(0), [float(word(1)), float(word(2))])
+        let [first, width, height] = three!(k => gather(simd, &self.levels, level * LEVEL_WORDS + k as u32));
+        (first, [float(width), float(height)])
     }
+}
+
+/// Whole numbers below 2³¹ as floats.
+#[inline(always)]
+pub(super) fn float<S: Simd>(v: u32x16<S>) -> f32x16<S> {
+    v.bitcast::<i32x16<S>>().to_float()
 }
 
 /// The levels that a filter looks at.
@@ -172,21 +177,21 @@ fn layout<T>(chain: &MipChain<T>, filter: TextureFilter) -> Vec<u32> {
 /// Where coordinate `t` lies in its copy of the map, 0 … 1: as [`crate::raster::texture`] has it.
 #[inline(always)]
 fn place_in_copy<S: Simd>(simd: S, t: f32x16<S>, repeat: f32, edges: Edges) -> f32x16<S> {
-    let splat = |v| f32x16::splat(simd, v);
-    let fraction = |t: f32x16<S>| t - t.floor();
+    let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let square = match edges {
         Edges::Wrap => t,
-        Edges::Clamp => t.max(splat(0.0)).min(splat(1.0)),
+        Edges::Clamp => t.max(zero).min(one),
         Edges::Mirror => 1.0 - (1.0 - (t - (t * 0.5).floor() * 2.0)).abs(),
     };
-    let mut inside = fraction(square * repeat);
+    let inside = square * repeat;
+    let mut inside = inside - inside.floor();
     if edges != Edges::Wrap {
         // The far rim is the end of the last copy, not the start of one more.
-        let rim = inside.simd_eq(splat(0.0)) & square.simd_gt(splat(0.0));
-        inside = rim.select(splat(1.0), inside);
+        let rim = inside.simd_eq(zero) & square.simd_gt(zero);
+        inside = rim.select(one, inside);
     }
     // What is no number any more lies at 0: max gives the other one.
-    inside.max_precise(splat(0.0)).min(splat(1.0))
+    inside.max_precise(zero).min(one)
 }
 
 /// Texel numbers that are at most one beyond a side of length `size`, within it.
@@ -218,11 +223,11 @@ fn bilinear<S: Simd>(
     tap: &mut impl FnMut(u32x16<S>, f32x16<S>),
 ) {
     // Texel centres lie at (i + ½) / size.
-    let p = [0, 1].map(|k| place[k] * size[k] - 0.5);
-    let corner = p.map(|v| v.floor());
-    let f = [0, 1].map(|k| p[k] - corner[k]);
-    let low = corner.map(|v| v.to_int::<i32x16<S>>());
-    let ends = [0, 1].map(|k| [low[k], low[k] + 1].map(|i| resolve(simd, i, size[k], edges)));
+    let p = two!(k => place[k] * size[k] - 0.5);
+    let corner = two!(k => p[k].floor());
+    let f = two!(k => p[k] - corner[k]);
+    let low = two!(k => corner[k].to_int::<i32x16<S>>());
+    let ends = two!(k => two!(i => resolve(simd, low[k] + i as i32, size[k], edges)));
     let weights = [[1.0 - f[0], f[0]], [(1.0 - f[1]) * share, f[1] * share]];
     for k in 0..4 {
         let (i, j) = (k % 2, k / 2);
@@ -233,11 +238,9 @@ fn bilinear<S: Simd>(
 /// log2 of the longer side of the pixel's footprint in texels of the full-size level.
 #[inline(always)]
 fn level_of_detail<S: Simd>(simd: S, at: &Footprint<S>, size: [f32x16<S>; 2]) -> f32x16<S> {
-    let squared = |d: [f32x16<S>; 2]| {
-        let [u, v] = [d[0] * size[0], d[1] * size[1]];
-        u.mul_add(u, v * v)
-    };
-    let longest = squared(at.dx).max(squared(at.dy)).max(f32x16::splat(simd, 1e-30)).min(f32x16::splat(simd, 1e30));
+    let (dx, dy) = (two!(k => at.dx[k] * size[k]), two!(k => at.dy[k] * size[k]));
+    let longest = dx[0].mul_add(dx[0], dx[1] * dx[1]).max(dy[0].mul_add(dy[0], dy[1] * dy[1]));
+    let longest = longest.max(splat(simd, 1e-30)).min(splat(simd, 1e30));
     log2(simd, longest) * 0.5
 }
 
@@ -250,16 +253,15 @@ pub(super) fn footprint<S: Simd, const N: usize>(
     x: f32x16<S>,
     y: f32x16<S>,
 ) -> (Footprint<S>, f32x16<S>) {
-    let [u, v, w] = [0, 1, 2].map(|i| planes.get(first + i));
+    let [u, v, w] = three!(i => planes.get(first + i));
     let inv_w = w.at(simd, x, y);
     let depth = recip(inv_w);
-    let uv = [u, v].map(|p| p.at(simd, x, y) * depth);
+    let uv = [u.at(simd, x, y) * depth, v.at(simd, x, y) * depth];
     // d(a / b) = (da − a / b · db) / b, at the pixel itself.
-    let change = |k: usize, d: f32, dw: f32| (f32x16::splat(simd, d) - uv[k] * dw) * depth;
     let footprint = Footprint {
+        dx: [(u.dx - uv[0] * w.dx) * depth, (v.dx - uv[1] * w.dx) * depth],
+        dy: [(u.dy - uv[0] * w.dy) * depth, (v.dy - uv[1] * w.dy) * depth],
         uv,
-        dx: [change(0, u.dx, w.dx), change(1, v.dx, w.dx)],
-        dy: [change(0, u.dy, w.dy), change(1, v.dy, w.dy)],
     };
     (footprint, depth)
 }

@@ -8,14 +8,14 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, u32x16};
 use glam::Vec3;
 
-use super::Finish;
+use super::{Finish, mean};
 use crate::light::Prepared;
 use crate::normal::Object as ObjectSpace;
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
 use crate::raster::tile::texture::{Footprint, Look, Texture, footprint};
-use crate::simd::{Vec3x16, cross, dot, gather, normalize, scale, splat, splat3};
+use crate::simd::{Vec3x16, cross, dot, gather, normalize, rsqrt, scale, splat, splat3, three};
 
 /// Texture coordinates and 1/w, the way to the eye, normal, tangent, sign of the bitangent; up to whole vectors.
 const ATTRIBUTES: usize = 16;
@@ -71,14 +71,13 @@ impl Shader<ATTRIBUTES> for Exact<'_> {
     #[inline(always)]
     fn shade<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>) -> u32x16<S> {
         let planes = &set_up.planes;
-        let vector = |first| planes.vector(simd, first, block.x, block.y);
         let (at, depth) = footprint(simd, planes, 0, block.x, block.y);
-        let normal = self.normal(simd, set_up, &at, vector(NORMAL), || vector(TANGENT), depth);
-        let to_eye = vector(EYE);
+        let normal = self.normal(simd, set_up, block, &at, depth);
+        let to_eye = planes.vector(simd, EYE, block.x, block.y);
         let view = normalize(simd, to_eye);
         let position = if self.material.needs_position() {
             let to_eye = scale(to_eye, depth);
-            [0, 1, 2].map(|k| self.eye[k] - to_eye[k])
+            three!(k => self.eye[k] - to_eye[k])
         } else {
             splat3(simd, [0.0; 3])
         };
@@ -94,48 +93,33 @@ impl Exact<'_> {
         &self,
         simd: S,
         set_up: &SetUp,
+        block: &Block<S>,
         at: &Footprint<S>,
-        smooth: Vec3x16<S>,
-        tangent: impl FnOnce() -> Vec3x16<S>,
         depth: f32x16<S>,
     ) -> Vec3x16<S> {
+        let smooth = set_up.planes.vector(simd, NORMAL, block.x, block.y);
         let sum = match &self.relief {
             Relief::Smooth => smooth,
             Relief::Tangent(texture, look) => {
-                let n = mean(simd, texture, look, at, |texel| texture.vector(simd, texel, true));
-                let tangent = tangent();
+                let n = mean(simd, texture, look, at, #[inline(always)] |texel| texture.vector(simd, texel, true));
+                let tangent = set_up.planes.vector(simd, TANGENT, block.x, block.y);
                 // The cross product of two vectors that are both divided by w has one division too many.
                 let bitangent = cross(smooth, tangent);
                 let up = n[1] * (depth * set_up.sign);
-                [0, 1, 2].map(|k| tangent[k].mul_add(n[0], bitangent[k].mul_add(up, smooth[k] * n[2])))
+                three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, smooth[k] * n[2])))
             }
-            Relief::Object(texture, look) => mean(simd, texture, look, at, |texel| texture.vector(simd, texel, true)),
-            Relief::Indexed(texture, look, normals) => mean(simd, texture, look, at, |texel| {
+            Relief::Object(texture, look) => {
+                mean(simd, texture, look, at, #[inline(always)] |texel| texture.vector(simd, texel, true))
+            }
+            Relief::Indexed(texture, look, normals) => mean(simd, texture, look, at, #[inline(always)] |texel| {
                 let entry = texture.index(simd, texel) * 3;
-                [0, 1, 2].map(|k| gather(simd, normals, entry + k).bitcast::<f32x16<S>>())
+                three!(k => gather(simd, normals, entry + k as u32).bitcast::<f32x16<S>>())
             }),
         };
         // Where normals cancel, the mesh's own.
         let gone = dot(sum, sum).simd_lt(splat(simd, 1e-20));
-        let sum = if gone.any_true() { [0, 1, 2].map(|k| gone.select(smooth[k], sum[k])) } else { sum };
+        let sum = if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum };
         let back = if set_up.back_facing { -1.0 } else { 1.0 };
-        scale(sum, crate::simd::rsqrt(simd, dot(sum, sum)) * back)
+        scale(sum, rsqrt(simd, dot(sum, sum)) * back)
     }
-}
-
-/// The weighted mean of what a map says under each pixel.
-#[inline(always)]
-pub(super) fn mean<S: Simd>(
-    simd: S,
-    texture: &Texture,
-    look: &Look,
-    at: &Footprint<S>,
-    vector: impl Fn(u32x16<S>) -> Vec3x16<S>,
-) -> Vec3x16<S> {
-    let mut sum = splat3(simd, [0.0; 3]);
-    texture.taps(simd, look, at, |texel, weight| {
-        let v = vector(texel);
-        sum = [0, 1, 2].map(|k| v[k].mul_add(weight, sum[k]));
-    });
-    sum
 }

@@ -10,7 +10,7 @@ use crate::raster::tile::buffer::word;
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
 use crate::raster::tile::texture::{Look, Texture, footprint};
-use crate::simd::gather;
+use crate::simd::{gather, three};
 
 /// Texture coordinates and 1/w.
 const ATTRIBUTES: usize = 3;
@@ -60,7 +60,7 @@ impl Shader<ATTRIBUTES> for Nearest<'_> {
     fn shade<S: Simd>(&self, simd: S, (planes, back): &Self::SetUp, block: &Block<S>) -> u32x16<S> {
         let (at, _) = footprint(simd, planes, 0, block.x, block.y);
         let mut color = u32x16::splat(simd, 0);
-        self.indices.taps(simd, &self.look, &at, |texel, _| {
+        self.indices.taps(simd, &self.look, &at, #[inline(always)] |texel, _| {
             color = gather(simd, &self.colors[usize::from(*back)], self.indices.index(simd, texel));
         });
         color
@@ -113,16 +113,17 @@ impl Shader<ATTRIBUTES> for Filtered<'_> {
         let (at, _) = footprint(simd, planes, 0, block.x, block.y);
         let mut sums = [f32x16::splat(simd, 0.0); 6];
         let Some(shades) = &self.shades[usize::from(*back)] else { return u32x16::splat(simd, 0) };
-        self.indices.taps(simd, &self.look, &at, |texel, weight| {
+        self.indices.taps(simd, &self.look, &at, #[inline(always)] |texel, weight| {
             let entry = self.indices.index(simd, texel) * 3;
             for k in 0..3 {
                 let pair = gather(simd, &shades.words, entry + k as u32);
-                let float = |code: u32x16<S>| code.bitcast::<i32x16<S>>().to_float::<f32x16<S>>();
-                sums[2 * k] = float(pair & 0xffff).mul_add(weight, sums[2 * k]);
-                sums[2 * k + 1] = float(pair >> 16).mul_add(weight, sums[2 * k + 1]);
+                let [low, high] = [pair & 0xffff, pair >> 16];
+                sums[2 * k] = low.bitcast::<i32x16<S>>().to_float::<f32x16<S>>().mul_add(weight, sums[2 * k]);
+                sums[2 * k + 1] = high.bitcast::<i32x16<S>>().to_float::<f32x16<S>>().mul_add(weight, sums[2 * k + 1]);
             }
         });
-        let [r, g, b, sr, sg, sb] = sums.map(|s| s * shades.scale);
-        self.finish.encode(simd, [r, g, b], [sr, sg, sb], &at)
+        let diffuse = three!(k => sums[k] * shades.scale);
+        let specular = three!(k => sums[k + 3] * shades.scale);
+        self.finish.encode(simd, diffuse, specular, &at)
     }
 }
