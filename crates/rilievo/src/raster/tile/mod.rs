@@ -29,7 +29,7 @@ use self::batch::{Batch, Shaded};
 use self::buffer::{TILE, Tile, word};
 use self::front::{Front, Tiles};
 use self::maps::{Map, Maps, detail_map};
-use self::shade::{Base, Exact, Filtered, Finish, Nearest, Pixelwise, Relief, Shades};
+use self::shade::{Base, Exact, Filtered, Finish, General, Glossy, Nearest, Pixelwise, Relief, Shades};
 use self::texture::Look;
 use crate::color::{LinearRgb, Picture, Rgba8};
 use crate::error::{Error, Result};
@@ -210,13 +210,13 @@ fn choose<'s>(
                 Detail::Indexed(map) => map.table().spans().first().map_or(0, |span| usize::from(span.material)),
                 _ => 0,
             };
-            match relief {
-                Some(relief) => {
-                    let material = Prepared::new(&object.materials[number], exact.lighting());
-                    Ok(place.with(Exact { relief, material, eye: exact.eye(), finish }, skipped))
-                }
-                None => Ok(pixelwise(Shading::Exact(exact), place, options, skipped)),
+            let Some(relief) = relief else { return Ok(pixelwise(Shading::Exact(exact), place, options, skipped)) };
+            let (material, lighting, eye) = (&object.materials[number], exact.lighting(), exact.eye());
+            if let Some(answer) = Glossy::new(material, lighting, eye) {
+                return Ok(place.with(Exact { relief, answer, eye, finish }, skipped));
             }
+            let answer = General { material: Prepared::new(material, lighting), eye };
+            Ok(place.with(Exact { relief, answer, eye, finish }, skipped))
         }
         (shading, _) => Ok(pixelwise(shading, place, options, skipped)),
     }

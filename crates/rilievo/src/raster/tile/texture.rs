@@ -21,6 +21,8 @@ pub(super) struct Texture {
     /// For each level: the number of its first texel, width, height.
     levels: Vec<u32>,
     format: Format,
+    /// Logarithms of width and height where both are powers of two: most maps, and wrapping is then a matter of bits.
+    powers: Option<[u32; 2]>,
 }
 
 /// What the words of a texel are.
@@ -40,6 +42,8 @@ pub(super) struct Footprint<S: Simd> {
     pub(super) uv: [f32x16<S>; 2],
     pub(super) dx: [f32x16<S>; 2],
     pub(super) dy: [f32x16<S>; 2],
+    pub(super) w: f32x16<S>,
+    pub(super) inv_w: f32x16<S>,
 }
 
 /// How a map is looked up.
@@ -56,7 +60,7 @@ impl Texture {
         let texels = levels(chain, filter).iter().flat_map(Grid::texels);
         let halves: Vec<u16> = texels.copied().collect();
         let words = halves.chunks(2).map(|pair| u32::from(pair[0]) | u32::from(*pair.last().unwrap_or(&0)) << 16);
-        Self { words: words.collect(), levels: layout(chain, filter), format: Format::Index }
+        Self { words: words.collect(), levels: layout(chain, filter), format: Format::Index, powers: powers(chain) }
     }
 
     /// Of normals: 8-bit codes where they are exact and no smaller level is looked at, 16 bits a component elsewhere.
@@ -74,7 +78,7 @@ impl Texture {
             let texels = levels_in_use.iter().flat_map(Grid::texels).map(|n| n.vec());
             (texels.flat_map(|n| [code(n.x) | code(n.y) << 16, code(n.z)]).collect(), Format::Code16)
         };
-        Self { words, levels: layout(chain, filter), format }
+        Self { words, levels: layout(chain, filter), format, powers: powers(chain) }
     }
 
     /// Of colours from 0 to 1.
@@ -82,7 +86,7 @@ impl Texture {
         let code = |v: f32| (v.clamp(0.0, 1.0) * 65_535.0 + 0.5) as u32;
         let texels = levels(chain, filter).iter().flat_map(Grid::texels);
         let words = texels.flat_map(|c| [code(c.r) | code(c.g) << 16, code(c.b)]).collect();
-        Self { words, levels: layout(chain, filter), format: Format::Code16 }
+        Self { words, levels: layout(chain, filter), format: Format::Code16, powers: powers(chain) }
     }
 
     /// The index at texel number `at`.
@@ -120,6 +124,13 @@ impl Texture {
         mut tap: impl FnMut(u32x16<S>, f32x16<S>),
     ) {
         let repeat = [look.repeat.x, look.repeat.y];
+        if let (Some(powers), Edges::Wrap) = (self.powers, look.edges) {
+            match look.filter {
+                TextureFilter::Nearest => return nearest_wrapped(simd, at.uv, repeat, powers, tap),
+                TextureFilter::Bilinear => return bilinear_wrapped(simd, at.uv, repeat, powers, tap),
+                TextureFilter::Trilinear => {}
+            }
+        }
         let place = two!(k => place_in_copy(simd, at.uv[k], repeat[k], look.edges));
         let base = two!(k => splat(simd, self.levels[k + 1] as f32));
         let first = u32x16::splat(simd, 0);
@@ -172,6 +183,51 @@ fn layout<T>(chain: &MipChain<T>, filter: TextureFilter) -> Vec<u32> {
         words
     };
     levels(chain, filter).iter().flat_map(level).collect()
+}
+
+fn powers<T>(chain: &MipChain<T>) -> Option<[u32; 2]> {
+    let (width, height) = chain.base().size();
+    (width.is_power_of_two() && height.is_power_of_two()).then(|| [width, height].map(u32::trailing_zeros))
+}
+
+/// The texel under each pixel, of a map that wraps after powers of two.
+#[inline(always)]
+fn nearest_wrapped<S: Simd>(
+    simd: S,
+    uv: [f32x16<S>; 2],
+    repeat: [f32; 2],
+    powers: [u32; 2],
+    mut tap: impl FnMut(u32x16<S>, f32x16<S>),
+) {
+    let [x, y] = two!(k => {
+        let side = 1u32 << powers[k];
+        (uv[k] * (repeat[k] * side as f32)).floor().to_int::<i32x16<S>>().bitcast::<u32x16<S>>() & (side - 1)
+    });
+    tap((y << powers[0]) | x, splat(simd, 1.0));
+}
+
+/// The four texels about each pixel, of a map that wraps after powers of two.
+#[inline(always)]
+fn bilinear_wrapped<S: Simd>(
+    simd: S,
+    uv: [f32x16<S>; 2],
+    repeat: [f32; 2],
+    powers: [u32; 2],
+    mut tap: impl FnMut(u32x16<S>, f32x16<S>),
+) {
+    let sides = powers.map(|p| 1u32 << p);
+    let p = two!(k => (uv[k] * (repeat[k] * sides[k] as f32)) - 0.5);
+    let corner = two!(k => p[k].floor());
+    let f = two!(k => p[k] - corner[k]);
+    let low = two!(k => corner[k].to_int::<i32x16<S>>().bitcast::<u32x16<S>>());
+    let xs = two!(i => (low[0] + i as u32) & (sides[0] - 1));
+    let ys = two!(i => ((low[1] + i as u32) & (sides[1] - 1)) << powers[0]);
+    let (one, mut weights) = (splat(simd, 1.0), [f; 2]);
+    weights[0] = two!(k => one - f[k]);
+    for k in 0..4 {
+        let (i, j) = (k % 2, k / 2);
+        tap(ys[j] | xs[i], weights[i][0] * weights[j][1]);
+    }
 }
 
 /// Where coordinate `t` lies in its copy of the map, 0 … 1: as [`crate::raster::texture`] has it.
@@ -252,16 +308,17 @@ pub(super) fn footprint<S: Simd, const N: usize>(
     first: usize,
     x: f32x16<S>,
     y: f32x16<S>,
-) -> (Footprint<S>, f32x16<S>) {
+) -> Footprint<S> {
     let [u, v, w] = three!(i => planes.get(first + i));
     let inv_w = w.at(simd, x, y);
     let depth = recip(inv_w);
     let uv = [u.at(simd, x, y) * depth, v.at(simd, x, y) * depth];
     // d(a / b) = (da − a / b · db) / b, at the pixel itself.
-    let footprint = Footprint {
+    Footprint {
         dx: [(u.dx - uv[0] * w.dx) * depth, (v.dx - uv[1] * w.dx) * depth],
         dy: [(u.dy - uv[0] * w.dy) * depth, (v.dy - uv[1] * w.dy) * depth],
         uv,
-    };
-    (footprint, depth)
+        w: depth,
+        inv_w,
+    }
 }

@@ -8,14 +8,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, u32x16};
 use glam::Vec3;
 
+use super::glossy::{Answer, Lit};
 use super::{Finish, mean};
-use crate::light::Prepared;
-use crate::normal::Object as ObjectSpace;
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
 use crate::raster::tile::texture::{Footprint, Look, Texture, footprint};
-use crate::simd::{Vec3x16, cross, dot, gather, normalize, rsqrt, scale, splat, splat3, three};
+use crate::simd::{Vec3x16, cross, dot, gather, splat, three};
 
 /// Texture coordinates and 1/w, the way to the eye, normal, tangent, sign of the bitangent; up to whole vectors.
 const ATTRIBUTES: usize = 16;
@@ -34,9 +33,9 @@ pub(in crate::raster::tile) enum Relief<'a> {
 }
 
 /// One material, whose light is evaluated by the pixel.
-pub(in crate::raster::tile) struct Exact<'a> {
+pub(in crate::raster::tile) struct Exact<'a, A> {
     pub(in crate::raster::tile) relief: Relief<'a>,
-    pub(in crate::raster::tile) material: Prepared<ObjectSpace>,
+    pub(in crate::raster::tile) answer: A,
     pub(in crate::raster::tile) eye: Vec3,
     pub(in crate::raster::tile) finish: Finish<'a>,
 }
@@ -49,7 +48,7 @@ pub(in crate::raster::tile) struct SetUp {
     back_facing: bool,
 }
 
-impl Shader<ATTRIBUTES> for Exact<'_> {
+impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
     type SetUp = SetUp;
 
     fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
@@ -71,23 +70,16 @@ impl Shader<ATTRIBUTES> for Exact<'_> {
     #[inline(always)]
     fn shade<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>) -> u32x16<S> {
         let planes = &set_up.planes;
-        let (at, depth) = footprint(simd, planes, 0, block.x, block.y);
-        let normal = self.normal(simd, set_up, block, &at, depth);
+        let at = footprint(simd, planes, 0, block.x, block.y);
+        let normal = self.normal(simd, set_up, block, &at);
         let to_eye = planes.vector(simd, EYE, block.x, block.y);
-        let view = normalize(simd, to_eye);
-        let position = if self.material.needs_position() {
-            let to_eye = scale(to_eye, depth);
-            three!(k => self.eye[k] - to_eye[k])
-        } else {
-            splat3(simd, [0.0; 3])
-        };
-        let [r, g, b, sr, sg, sb] = self.material.shade(simd, normal, view, position);
-        self.finish.encode(simd, [r, g, b], [sr, sg, sb], &at)
+        let [diffuse, specular] = self.answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w });
+        self.finish.encode(simd, diffuse, specular, &at)
     }
 }
 
-impl Exact<'_> {
-    /// The unit normal under each pixel.
+impl<A> Exact<'_, A> {
+    /// The normal under each pixel, not normalised.
     #[inline(always)]
     fn normal<S: Simd>(
         &self,
@@ -95,7 +87,6 @@ impl Exact<'_> {
         set_up: &SetUp,
         block: &Block<S>,
         at: &Footprint<S>,
-        depth: f32x16<S>,
     ) -> Vec3x16<S> {
         let smooth = set_up.planes.vector(simd, NORMAL, block.x, block.y);
         let sum = match &self.relief {
@@ -105,7 +96,7 @@ impl Exact<'_> {
                 let tangent = set_up.planes.vector(simd, TANGENT, block.x, block.y);
                 // The cross product of two vectors that are both divided by w has one division too many.
                 let bitangent = cross(smooth, tangent);
-                let up = n[1] * (depth * set_up.sign);
+                let up = n[1] * (at.w * set_up.sign);
                 three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, smooth[k] * n[2])))
             }
             Relief::Object(texture, look) => {
@@ -119,7 +110,6 @@ impl Exact<'_> {
         // Where normals cancel, the mesh's own.
         let gone = dot(sum, sum).simd_lt(splat(simd, 1e-20));
         let sum = if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum };
-        let back = if set_up.back_facing { -1.0 } else { 1.0 };
-        scale(sum, rsqrt(simd, dot(sum, sum)) * back)
+        if set_up.back_facing { three!(k => -sum[k]) } else { sum }
     }
 }

@@ -1,10 +1,12 @@
 //! The methods, one room each, of the same shape: what they want of a vertex, of a triangle, of sixteen pixels.
 
 mod exact;
+mod glossy;
 mod pixel;
 mod table;
 
 pub(super) use exact::{Exact, Relief};
+pub(super) use glossy::{General, Glossy};
 pub(super) use pixel::Pixelwise;
 pub(super) use table::{Filtered, Nearest, Shades};
 

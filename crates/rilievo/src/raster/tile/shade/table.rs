@@ -58,7 +58,7 @@ impl Shader<ATTRIBUTES> for Nearest<'_> {
 
     #[inline(always)]
     fn shade<S: Simd>(&self, simd: S, (planes, back): &Self::SetUp, block: &Block<S>) -> u32x16<S> {
-        let (at, _) = footprint(simd, planes, 0, block.x, block.y);
+        let at = footprint(simd, planes, 0, block.x, block.y);
         let mut color = u32x16::splat(simd, 0);
         self.indices.taps(simd, &self.look, &at, #[inline(always)] |texel, _| {
             color = gather(simd, &self.colors[usize::from(*back)], self.indices.index(simd, texel));
@@ -110,7 +110,7 @@ impl Shader<ATTRIBUTES> for Filtered<'_> {
 
     #[inline(always)]
     fn shade<S: Simd>(&self, simd: S, (planes, back): &Self::SetUp, block: &Block<S>) -> u32x16<S> {
-        let (at, _) = footprint(simd, planes, 0, block.x, block.y);
+        let at = footprint(simd, planes, 0, block.x, block.y);
         let mut sums = [f32x16::splat(simd, 0.0); 6];
         let Some(shades) = &self.shades[usize::from(*back)] else { return u32x16::splat(simd, 0) };
         self.indices.taps(simd, &self.look, &at, #[inline(always)] |texel, weight| {
