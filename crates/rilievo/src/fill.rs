@@ -56,6 +56,17 @@ impl Triangle {
         !self.flipped
     }
 
+    /// The snapped corners as they were given, in 1/2⁸ of a pixel.
+    pub(crate) fn snapped(&self) -> [[i64; 2]; 3] {
+        let [a, b, c] = self.vertices;
+        if self.flipped { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// The snapped corners as they were given, in pixels.
+    pub(crate) fn corners(&self) -> [DVec2; 3] {
+        self.snapped().map(|[x, y]| DVec2::new(x as f64, y as f64) / ONE as f64)
+    }
+
     /// Calls `visit(x, y, weights)` for every pixel centre the triangle owns inside `columns` × `rows`, row by row.
     ///
     /// The weights are the barycentric coordinates of the pixel centre for the corners as they were given; they are

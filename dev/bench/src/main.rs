@@ -15,6 +15,7 @@ mod render;
 mod report;
 mod scale;
 mod size;
+mod vectors;
 
 use anyhow::{Context, Result};
 use clap::Parser;
@@ -29,7 +30,7 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 6] = [
+const GROUPS: [Group; 7] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",
@@ -44,6 +45,11 @@ const GROUPS: [Group; 6] = [
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },
+    Group {
+        name: "vectors",
+        what: "interpolated light vectors: cost by scan lines, lengths, pictures",
+        run: vectors::run,
+    },
 ];
 
 /// Measure against peers, on one thread.

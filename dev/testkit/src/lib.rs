@@ -3,11 +3,13 @@
 
 mod data;
 pub mod golden;
+mod lengths;
 mod npy;
 mod random;
 mod skip;
 
 pub use data::{shared_data, shared_file};
+pub use lengths::{LengthStats, length_stats};
 pub use npy::read_npy_f16;
 pub use random::{Random, uniform_sphere};
 pub use skip::{has_program, skip};

@@ -3,14 +3,17 @@
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::mip::MipChain;
-use crate::raster::reference::{Exact, Table};
+use crate::raster::reference::{Baked, Exact, Interpolated, Table};
 use crate::raster::scene::{Detail, Method, Object, Scene};
 use crate::raster::texture::TextureFilter;
+use crate::raster::vectors::Interpolation;
 
 /// The shading of one object for one frame.
 pub(super) enum Shading<'a> {
     Table(Table<'a>),
     Exact(Exact<'a>),
+    Interpolated(Interpolated<'a>),
+    Static(Baked<'a>),
 }
 
 /// A scene whose tables are lit: ready to be drawn, as often as wanted.
@@ -35,13 +38,18 @@ pub(super) fn shading<'a>(scene: &Scene<'_>, object: &'a Object<'a>, method: Met
     check(object)?;
     let lighting = scene.lighting.to_object(&object.pose);
     let eye = object.pose.point_to_object(scene.camera.eye());
-    Ok(match method {
-        Method::Table => Shading::Table(Table::new(object, &lighting, eye)?),
-        Method::Exact => Shading::Exact(Exact::new(object, lighting, eye)),
-    })
+    let interpolated = |how, lighting| Interpolated::new(how, object, lighting, eye).map(Shading::Interpolated);
+    match method {
+        Method::Table => Ok(Shading::Table(Table::new(object, &lighting, eye)?)),
+        Method::Exact => Ok(Shading::Exact(Exact::new(object, lighting, eye)?)),
+        Method::Static => Ok(Shading::Static(Baked::new(object)?)),
+        Method::Linear => interpolated(Interpolation::Linear, lighting),
+        Method::Normalized => interpolated(Interpolation::Normalized, lighting),
+        Method::Quadratic { midpoints, order } => interpolated(Interpolation::Quadratic { midpoints, order }, lighting),
+    }
 }
 
-fn check(object: &Object<'_>) -> Result<()> {
+pub(super) fn check(object: &Object<'_>) -> Result<()> {
     let textured = object.base_color.is_some() || !matches!(object.detail, Detail::Smooth);
     if textured && object.mesh.uvs().is_empty() {
         let remedy = "maps need a mesh with UVs; unwrap it first";
@@ -53,6 +61,8 @@ fn check(object: &Object<'_>) -> Result<()> {
     }
     let highest = match object.detail {
         Detail::Smooth => 0,
+        // Lit already: materials play no part.
+        Detail::Baked(_) => return Ok(()),
         Detail::Tangent { normals, materials, .. } => highest_material(normals, materials)?,
         Detail::Object { normals, materials } => highest_material(normals, materials)?,
         Detail::Indexed(map) => map.table().spans().last().map_or(0, |s| s.material),

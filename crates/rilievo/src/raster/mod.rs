@@ -29,6 +29,7 @@ mod clip;
 mod frame;
 mod project;
 mod reference;
+pub mod scanline;
 mod scene;
 mod target;
 mod texture;
@@ -36,7 +37,7 @@ pub mod tile;
 pub mod vectors;
 
 pub use frame::{Frame, prepare};
-pub use reference::draw;
+pub use reference::{bake_light_map, draw};
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::Target;
 pub use texture::TextureFilter;

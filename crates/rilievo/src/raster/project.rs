@@ -15,7 +15,7 @@ use crate::simd::three;
 use crate::surface::Camera;
 
 /// The longest side of a picture, in pixels. Differences of snapped coordinates then fit 23 bits (see [`Projection::guard_band`]).
-pub const MAX_PICTURE_SIDE: u32 = 16_384;
+pub(super) const MAX_PICTURE_SIDE: u32 = 16_384;
 
 /// The farthest that clip coordinates may lie from the centre, in half-pictures, before a triangle is cut: as far as the
 /// widest triangle stays within [`MAX_PICTURE_SIDE`], and no farther than this.
@@ -79,6 +79,7 @@ impl Projection {
     }
 
     /// The planes of the clip volume that a point lies outside of, a bit for each.
+    #[cfg(test)]
     pub(super) fn outside(&self, p: Vec4) -> u8 {
         let g = self.guard_band * p.w;
         let distances = [p.z, p.w - p.z, g - p.x, g + p.x, g - p.y, g + p.y];
@@ -86,7 +87,8 @@ impl Projection {
         distances.iter().enumerate().fold(0, |bits, (i, &d)| bits | u8::from(!(d >= 0.0)) << i)
     }
 
-    /// [`Self::to_clip`], [`Self::outside`] and [`Self::to_screen`] of sixteen points, given as x, y and z.
+    /// [`Self::to_clip`] and [`Self::to_screen`] of sixteen points, given as x, y and z, and for each the planes of the clip
+    /// volume that it lies outside of, a bit for each: near, far, right, left, top, bottom.
     ///
     /// Coordinates of points that are outside are garbage.
     #[inline(always)]

@@ -5,11 +5,12 @@ use glam::{Vec2, Vec3, Vec4};
 use crate::color::LinearRgb;
 use crate::grid::Edges;
 use crate::indexed::QuantizedMap;
-use crate::light::{Blend, Lighting, Material};
+use crate::light::{Blend, Layer, Lighting, LightingModel, Material, Shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Tangent, World};
 use crate::pose::Pose;
 use crate::raster::texture::Footprint;
+use crate::raster::vectors::{Midpoints, Order};
 use crate::surface::{Camera, Mesh};
 
 /// Where the fine normals of an object come from.
@@ -35,6 +36,8 @@ pub enum Detail<'a> {
     },
     /// A quantised object-space map: what [`Method::Table`] needs.
     Indexed(&'a QuantizedMap<ObjectSpace>),
+    /// No normals any more but light: what [`Method::Static`] draws, made by [`crate::raster::bake_light_map`].
+    Baked(&'a MipChain<Shade>),
 }
 
 /// A base colour texture.
@@ -78,6 +81,17 @@ impl<'a> Object<'a> {
     }
 }
 
+impl Object<'_> {
+    /// The largest exponent of a highlight among the materials; 0 without highlights.
+    pub(super) fn highest_shininess(&self) -> f32 {
+        let exponent = |layer: &Layer| match layer.model {
+            LightingModel::BlinnPhong { shininess, .. } if layer.weight != 0.0 => shininess,
+            _ => 0.0,
+        };
+        self.materials.iter().flat_map(|m| m.layers()).map(exponent).fold(0.0, f32::max)
+    }
+}
+
 /// Objects, lights and a camera.
 #[derive(Debug, Clone)]
 pub struct Scene<'a> {
@@ -98,6 +112,24 @@ pub enum Method {
     Table,
     /// Normal, frame and view direction of every pixel, all normalised: the reference for the other methods.
     Exact,
+    /// A light map that was baked once: lights stand still. The baseline of what a textured picture costs.
+    Static,
+    /// Light and half vectors of the vertices, interpolated linearly over the screen: too short between them, so that
+    /// highlights break up on large triangles.
+    ///
+    /// This and the other methods of interpolated vectors take tangent-space maps or the mesh's own normals, and
+    /// materials of ambient, Lambert and Blinn-Phong layers.
+    Linear,
+    /// The same vectors, normalised in every pixel.
+    Normalized,
+    /// The vectors interpolated quadratically, through samples at vertices and edge midpoints: of about unit length
+    /// without being normalised.
+    Quadratic {
+        /// How the samples between the vertices are made.
+        midpoints: Midpoints,
+        /// Whether triangles may be linear.
+        order: Order,
+    },
 }
 
 /// What the mesh says of a pixel, in object space, interpolated and not normalised.

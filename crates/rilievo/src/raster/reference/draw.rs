@@ -4,11 +4,12 @@ use glam::{DVec2, DVec4, Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
 use crate::fill::{SUBPIXEL_BITS, Triangle};
+use crate::light::Shade;
 use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::frame::{Frame, Shading};
 use crate::raster::project::Projection;
-use crate::raster::scene::{Fragment, Object};
+use crate::raster::scene::{Fragment, Object, Scene};
 use crate::raster::target::{Pixel, Target};
 use crate::raster::texture::{Footprint, Sampling, Taps};
 use crate::surface::Mesh;
@@ -23,19 +24,29 @@ const BAND_ROWS: usize = 32;
 pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     let (width, height) = target.size();
     for (object, shading) in frame.scene.objects.iter().zip(&frame.shadings) {
-        let triangles = set_up(object, frame, (width, height));
+        let triangles = set_up(object, frame.scene, (width, height));
         let sampling = Sampling { filter: frame.filter, edges: object.edges, repeat: Vec2::ONE };
+        let fields = match shading {
+            Shading::Interpolated(shading) => shading.fields(&triangles),
+            _ => Vec::new(),
+        };
         let band_len = width as usize * BAND_ROWS;
         par::for_each_row(target.pixels.texels_mut(), band_len, |band, pixels| {
             let first_row = (band * BAND_ROWS) as u32;
             let rows = first_row..first_row + (pixels.len() / width as usize) as u32;
-            for triangle in &triangles {
+            for (i, triangle) in triangles.iter().enumerate() {
                 triangle.shape.for_each_pixel(0..width, rows.clone(), |x, y, lambda| {
                     let pixel = &mut pixels[(y - first_row) as usize * width as usize + x as usize];
                     let depth = triangle.depth(lambda);
                     if depth < pixel.depth {
                         let fragment = triangle.fragment(object.mesh, lambda);
-                        let color = color(object, shading, &fragment, sampling);
+                        let shade = match (shading, fields.get(i)) {
+                            (Shading::Interpolated(shading), Some(fields)) => {
+                                shading.shade(&fragment, sampling, fields, (x, y))
+                            }
+                            _ => shade(shading, &fragment, sampling),
+                        };
+                        let color = shade.over(base_color(object, &fragment, sampling), object.blend);
                         *pixel = Pixel { color, depth };
                     }
                 });
@@ -44,37 +55,47 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     }
 }
 
-/// The light that leaves a fragment.
-pub(in crate::raster) fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
-    let shade = match shading {
+/// What a shading that needs no more than the fragment makes of it.
+pub(in crate::raster) fn shade(shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> Shade {
+    match shading {
         Shading::Table(table) => table.shade(fragment, sampling),
         Shading::Exact(exact) => exact.shade(fragment, sampling),
-    };
-    let base = object.base_color.map_or(LinearRgb::WHITE, |base| {
+        Shading::Static(baked) => baked.shade(fragment, sampling),
+        // Vectors belong to a triangle; there are as many fields as triangles.
+        Shading::Interpolated(_) => Shade::default(),
+    }
+}
+
+/// The base colour under a pixel; white without a map of it.
+pub(in crate::raster) fn base_color(object: &Object<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
+    object.base_color.map_or(LinearRgb::WHITE, |base| {
         Taps::gather(base.levels, Sampling { repeat: base.repeat, ..sampling }, &fragment.footprint)
             .iter()
             .fold(LinearRgb::BLACK, |sum, tap| sum + base.levels.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
-    });
-    shade.over(base, object.blend)
+    })
 }
 
 /// A clipped, projected triangle.
-struct ScreenTriangle {
-    shape: Triangle,
+pub(in crate::raster) struct ScreenTriangle {
+    pub(in crate::raster) shape: Triangle,
     /// Seen from behind.
-    back_facing: bool,
-    corners: [Corner; 3],
+    pub(in crate::raster) back_facing: bool,
+    pub(in crate::raster) corners: [Corner; 3],
     /// Change of the screen barycentrics to the next pixel to the right and below.
     lambda_dx: [f64; 3],
     lambda_dy: [f64; 3],
     /// Vertices of the triangle before clipping.
-    vertices: [u32; 3],
+    pub(in crate::raster) vertices: [u32; 3],
 }
 
 /// Transforms, clips and projects all triangles of an object; drops what is behind, outside, or turned away.
-fn set_up(object: &Object<'_>, frame: &Frame<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
+pub(in crate::raster) fn set_up(
+    object: &Object<'_>,
+    scene: &Scene<'_>,
+    (width, height): (u32, u32),
+) -> Vec<ScreenTriangle> {
     let mesh = object.mesh;
-    let projection = Projection::new(&frame.scene.camera, &object.pose, (width, height));
+    let projection = Projection::new(&scene.camera, &object.pose, (width, height));
     // Per vertex, not per corner: triangles that share a vertex must see it at the same bits.
     let positions: Vec<DVec4> = mesh.positions().iter().map(|&p| projection.to_clip(p).as_dvec4()).collect();
     let to_screen = |p: DVec4| {
@@ -109,7 +130,7 @@ fn barycentric_gradients([a, b, c]: [DVec2; 3]) -> [[f64; 3]; 2] {
 
 impl ScreenTriangle {
     /// Depth at screen barycentrics `lambda`: linear on the screen.
-    fn depth(&self, lambda: [f64; 3]) -> f32 {
+    pub(in crate::raster) fn depth(&self, lambda: [f64; 3]) -> f32 {
         self.corners.iter().zip(lambda).map(|(c, l)| c.position.z / c.position.w * l).sum::<f64>() as f32
     }
 
@@ -127,7 +148,7 @@ impl ScreenTriangle {
         (numerators, denominator)
     }
 
-    fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
+    pub(in crate::raster) fn fragment(&self, mesh: &Mesh, lambda: [f64; 3]) -> Fragment {
         let (numerators, denominator) = self.over_w(lambda);
         let weights = numerators.map(|n| n / denominator);
         // d(n / d) = (dn − n / d · dd) / d: at the pixel itself, because a step to the next pixel may leave the triangle

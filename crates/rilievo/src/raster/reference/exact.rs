@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use crate::error::{Error, Result};
 use crate::light::{Lighting, Material, Shade, shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Space};
@@ -19,8 +20,15 @@ pub(in crate::raster) struct Exact<'a> {
 
 impl<'a> Exact<'a> {
     /// For an eye at `eye` in object space.
-    pub(in crate::raster) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
-        Self { detail: object.detail, materials: object.materials, lighting, eye }
+    ///
+    /// # Errors
+    /// [`Error::Missing`] if there are no normals.
+    pub(in crate::raster) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Result<Self> {
+        if matches!(object.detail, Detail::Baked(_)) {
+            let remedy = "a light map can only be drawn as it is (Method::Static)";
+            return Err(Error::Missing { what: "normals", remedy });
+        }
+        Ok(Self { detail: object.detail, materials: object.materials, lighting, eye })
     }
 
     /// The light, in object space.
@@ -38,9 +46,9 @@ impl<'a> Exact<'a> {
         let view = Normal::new_or(self.eye - fragment.position, smooth);
         let frame = Frame::from_mikk(fragment.normal, fragment.tangent);
         let mut total = Shade::default();
-        for part in self.gather(fragment, sampling).iter() {
+        for part in gather(self.detail, fragment, sampling).iter() {
             let normal = match self.detail {
-                Detail::Smooth => smooth,
+                Detail::Smooth | Detail::Baked(_) => smooth,
                 Detail::Tangent { .. } => frame.to_object(Normal::new_or(part.sum, Normal::Z)),
                 Detail::Object { .. } | Detail::Indexed(_) => Normal::new_or(part.sum, smooth),
             };
@@ -51,30 +59,30 @@ impl<'a> Exact<'a> {
         }
         total
     }
+}
 
-    /// The map's normals under the pixel, summed per material.
-    fn gather(&self, fragment: &Fragment, sampling: Sampling) -> Parts {
-        let mut parts = Parts::default();
-        match self.detail {
-            Detail::Smooth => parts.add(0, Vec3::ZERO, 1.0),
-            Detail::Tangent { normals, repeat, materials } => {
-                let sampling = Sampling { repeat, ..sampling };
-                gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);
-            }
-            Detail::Object { normals, materials } => {
-                gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);
-            }
-            Detail::Indexed(map) => {
-                let levels = map.indices();
-                for tap in Taps::gather(levels, sampling, &fragment.footprint).iter() {
-                    let index = levels.levels()[tap.level][(tap.x, tap.y)];
-                    let normal = map.table().normals()[usize::from(index)];
-                    parts.add(map.table().material_of(index), normal.vec(), tap.weight);
-                }
+/// The map's normals under a pixel, summed per material.
+pub(super) fn gather(detail: Detail<'_>, fragment: &Fragment, sampling: Sampling) -> Parts {
+    let mut parts = Parts::default();
+    match detail {
+        Detail::Smooth | Detail::Baked(_) => parts.add(0, Vec3::ZERO, 1.0),
+        Detail::Tangent { normals, repeat, materials } => {
+            let sampling = Sampling { repeat, ..sampling };
+            gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);
+        }
+        Detail::Object { normals, materials } => {
+            gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);
+        }
+        Detail::Indexed(map) => {
+            let levels = map.indices();
+            for tap in Taps::gather(levels, sampling, &fragment.footprint).iter() {
+                let index = levels.levels()[tap.level][(tap.x, tap.y)];
+                let normal = map.table().normals()[usize::from(index)];
+                parts.add(map.table().material_of(index), normal.vec(), tap.weight);
             }
         }
-        parts
     }
+    parts
 }
 
 fn gather_map<S: Space>(
@@ -93,16 +101,16 @@ fn gather_map<S: Space>(
 
 /// The texels of one material under a pixel.
 #[derive(Debug, Clone, Copy, Default)]
-struct Part {
-    material: u8,
+pub(super) struct Part {
+    pub(super) material: u8,
     /// Weighted sum of the normals.
-    sum: Vec3,
-    weight: f32,
+    pub(super) sum: Vec3,
+    pub(super) weight: f32,
 }
 
 /// At most one part per tap.
 #[derive(Default)]
-struct Parts {
+pub(super) struct Parts {
     parts: [Part; 8],
     len: usize,
 }
@@ -123,7 +131,7 @@ impl Parts {
         part.weight += weight;
     }
 
-    fn iter(&self) -> std::slice::Iter<'_, Part> {
+    pub(super) fn iter(&self) -> std::slice::Iter<'_, Part> {
         self.parts[..self.len].iter()
     }
 }

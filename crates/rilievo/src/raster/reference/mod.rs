@@ -1,10 +1,15 @@
 //! The reference renderer: plain scalar code, clear before fast; every faster path is held against it.
 
+mod baked;
 mod draw;
 mod exact;
+mod interpolated;
 mod table;
 
+pub(super) use baked::Baked;
+pub use baked::bake_light_map;
 pub use draw::draw;
-pub(super) use draw::color;
+pub(super) use draw::{ScreenTriangle, base_color, set_up, shade};
 pub(super) use exact::Exact;
+pub(super) use interpolated::Interpolated;
 pub(super) use table::Table;

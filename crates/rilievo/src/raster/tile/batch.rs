@@ -8,7 +8,6 @@ use super::cover::{Bounds, COUNT, Edges, columns, pixels};
 use super::front::{Chunk, Front, Triangle, Vertex};
 use super::planes::{Plane, Sides};
 use crate::fill::SUBPIXEL_BITS;
-use crate::raster::project::ScreenVertex;
 use crate::simd::three;
 
 /// A way to shade, over `N` attributes of each vertex.
@@ -29,16 +28,18 @@ pub(super) trait Shader<const N: usize>: Sync {
 /// A triangle with a visible pixel.
 pub(super) struct Seen<'a, const N: usize> {
     pub(super) triangle: &'a Triangle,
-    pub(super) corners: [ScreenVertex; 3],
     pub(super) attributes: [&'a [f32; N]; 3],
     pub(super) sides: Sides,
     chunk: &'a Chunk,
 }
 
 impl<const N: usize> Seen<'_, N> {
-    /// Weights of corner `i` in the mesh's triangle, if clipping made it.
-    pub(super) fn cut_weights(&self, i: usize) -> Option<[f32; 3]> {
-        Triangle::cut(self.triangle.corners[i]).map(|cut| self.chunk.cut[cut].weights)
+    /// Weights of the corners in the mesh's triangle of these vertices.
+    pub(super) fn weights(&self, vertices: [u32; 3]) -> [[f32; 3]; 3] {
+        self.triangle.corners.map(|corner| match Triangle::cut(corner) {
+            Some(cut) => self.chunk.cut[cut].weights,
+            None => vertices.map(|v| f32::from(u8::from(v == corner))),
+        })
     }
 }
 
@@ -143,7 +144,7 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
                 tile.set_depth(block, visible.select(z, before), farthest);
                 if set_up.is_none() {
                     let attributes = three!(i => self.attributes_of(chunk, triangle.corners[i]));
-                    set_up = Some(self.shader.set_up(&Seen { triangle, corners, attributes, sides, chunk }));
+                    set_up = Some(self.shader.set_up(&Seen { triangle, attributes, sides, chunk }));
                 }
                 let Some(set_up) = &set_up else { continue };
                 let color = self.shader.shade(simd, set_up, &Block { x, y, visible });

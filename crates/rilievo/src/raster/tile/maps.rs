@@ -1,6 +1,7 @@
 //! Maps that lanes can read, made once and kept from frame to frame.
 
 use crate::color::LinearRgb;
+use crate::light::Shade;
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Tangent};
 use crate::raster::scene::{Detail, Object};
@@ -15,6 +16,7 @@ pub(super) enum Map<'a> {
     Tangent(&'a MipChain<Normal<Tangent>>),
     Object(&'a MipChain<Normal<ObjectSpace>>),
     Colors(&'a MipChain<LinearRgb>),
+    Shades(&'a MipChain<Shade>),
 }
 
 impl Map<'_> {
@@ -24,6 +26,7 @@ impl Map<'_> {
             (Map::Tangent(a), Map::Tangent(b)) => std::ptr::eq(*a, *b),
             (Map::Object(a), Map::Object(b)) => std::ptr::eq(*a, *b),
             (Map::Colors(a), Map::Colors(b)) => std::ptr::eq(*a, *b),
+            (Map::Shades(a), Map::Shades(b)) => std::ptr::eq(*a, *b),
             _ => false,
         }
     }
@@ -34,6 +37,7 @@ impl Map<'_> {
             Map::Tangent(chain) => Texture::of_normals(chain, filter),
             Map::Object(chain) => Texture::of_normals(chain, filter),
             Map::Colors(chain) => Texture::of_colors(chain, filter),
+            Map::Shades(chain) => Texture::of_shades(chain, filter),
         }
     }
 }
@@ -67,5 +71,6 @@ pub(super) fn detail_map<'a>(detail: &Detail<'a>) -> Option<Map<'a>> {
         Detail::Tangent { normals, .. } => Some(Map::Tangent(normals)),
         Detail::Object { normals, .. } => Some(Map::Object(normals)),
         Detail::Indexed(map) => Some(Map::Indices(map.indices())),
+        Detail::Baked(levels) => Some(Map::Shades(levels)),
     }
 }

@@ -29,7 +29,9 @@ use self::batch::{Batch, Shaded};
 use self::buffer::{TILE, Tile, word};
 use self::front::{Front, Tiles};
 use self::maps::{Map, Maps, detail_map};
-use self::shade::{Base, Exact, Filtered, Finish, General, Glossy, Nearest, Pixelwise, Relief, Shades};
+use self::shade::{
+    Base, Exact, Filtered, Finish, General, Glossy, Nearest, Pixelwise, Relief, Shades, Static, Terms, Vectors,
+};
 use self::texture::Look;
 use crate::color::{LinearRgb, Picture, Rgba8};
 use crate::error::{Error, Result};
@@ -218,6 +220,22 @@ fn choose<'s>(
             let answer = General { material: Prepared::new(material, lighting), eye };
             Ok(place.with(Exact { relief, answer, eye, finish }, skipped))
         }
+        (Shading::Interpolated(interpolated), map) => {
+            let relief = match (object.detail, map) {
+                (Detail::Smooth, _) => Some(None),
+                (Detail::Tangent { repeat, materials: None, .. }, Some(t)) => Some(Some((t, look(repeat)))),
+                _ => None,
+            };
+            match (relief, Terms::new(&object.materials[0], interpolated.lighting())) {
+                (Some(relief), Some(terms)) => {
+                    let vertices = interpolated.vertices();
+                    let mesh = object.mesh;
+                    Ok(place.with(Vectors { relief, shading: interpolated, vertices, mesh, terms, finish }, skipped))
+                }
+                _ => Ok(pixelwise(Shading::Interpolated(interpolated), place, options, skipped)),
+            }
+        }
+        (Shading::Static(_), Some(shades)) => Ok(place.with(Static { shades, look: look(Vec2::ONE), finish }, skipped)),
         (shading, _) => Ok(pixelwise(shading, place, options, skipped)),
     }
 }
@@ -230,7 +248,11 @@ fn pixelwise<'s>(
 ) -> Box<dyn Batch + 's> {
     let object = place.object;
     let sampling = Sampling { filter: options.filter, edges: object.edges, repeat: Vec2::ONE };
-    place.with(Pixelwise { object, shading, sampling }, skipped)
+    let vertices = match &shading {
+        Shading::Interpolated(interpolated) => Some(interpolated.vertices()),
+        _ => None,
+    };
+    place.with(Pixelwise { object, shading, sampling, vertices }, skipped)
 }
 
 /// An empty picture to draw into.

@@ -6,6 +6,7 @@ use glam::Vec2;
 
 use crate::color::LinearRgb;
 use crate::grid::{Edges, Grid};
+use crate::light::Shade;
 use crate::mip::MipChain;
 use crate::normal::{Normal, Space, decode_u8, encode_u8};
 use crate::raster::texture::TextureFilter;
@@ -23,6 +24,8 @@ pub(super) struct Texture {
     format: Format,
     /// Logarithms of width and height where both are powers of two: most maps, and wrapping is then a matter of bits.
     powers: Option<[u32; 2]>,
+    /// What the largest code of shades stands for.
+    largest: f32,
 }
 
 /// What the words of a texel are.
@@ -34,6 +37,8 @@ enum Format {
     Code8,
     /// Two words of 16 bits each: x, y, z of a normal, or r, g, b of a colour, and nothing.
     Code16,
+    /// Three words, see [`shade_words`].
+    Shade,
 }
 
 /// Where a pixel looks a map up: texture coordinates, and their change to the next pixel to the right and below.
@@ -60,7 +65,7 @@ impl Texture {
         let texels = levels(chain, filter).iter().flat_map(Grid::texels);
         let halves: Vec<u16> = texels.copied().collect();
         let words = halves.chunks(2).map(|pair| u32::from(pair[0]) | u32::from(*pair.last().unwrap_or(&0)) << 16);
-        Self { words: words.collect(), levels: layout(chain, filter), format: Format::Index, powers: powers(chain) }
+        Self { words: words.collect(), levels: layout(chain, filter), format: Format::Index, powers: powers(chain), largest: 1.0 }
     }
 
     /// Of normals: 8-bit codes where they are exact and no smaller level is looked at, 16 bits a component elsewhere.
@@ -78,7 +83,7 @@ impl Texture {
             let texels = levels_in_use.iter().flat_map(Grid::texels).map(|n| n.vec());
             (texels.flat_map(|n| [code(n.x) | code(n.y) << 16, code(n.z)]).collect(), Format::Code16)
         };
-        Self { words, levels: layout(chain, filter), format, powers: powers(chain) }
+        Self { words, levels: layout(chain, filter), format, powers: powers(chain), largest: 1.0 }
     }
 
     /// Of colours from 0 to 1.
@@ -86,7 +91,21 @@ impl Texture {
         let code = |v: f32| (v.clamp(0.0, 1.0) * 65_535.0 + 0.5) as u32;
         let texels = levels(chain, filter).iter().flat_map(Grid::texels);
         let words = texels.flat_map(|c| [code(c.r) | code(c.g) << 16, code(c.b)]).collect();
-        Self { words, levels: layout(chain, filter), format: Format::Code16, powers: powers(chain) }
+        Self { words, levels: layout(chain, filter), format: Format::Code16, powers: powers(chain), largest: 1.0 }
+    }
+
+    /// Of light.
+    pub(super) fn of_shades(chain: &MipChain<Shade>, filter: TextureFilter) -> Self {
+        let texels = || levels(chain, filter).iter().flat_map(Grid::texels);
+        let largest = largest(texels());
+        let words = texels().flat_map(|shade| shade_words(shade, largest)).collect();
+        Self { words, levels: layout(chain, filter), format: Format::Shade, powers: powers(chain), largest }
+    }
+
+    /// Diffuse and specular light of texel number `at`.
+    #[inline(always)]
+    pub(super) fn shade<S: Simd>(&self, simd: S, at: u32x16<S>) -> [f32x16<S>; 6] {
+        read_shade(simd, &self.words, at, self.largest)
     }
 
     /// The index at texel number `at`.
@@ -162,6 +181,31 @@ impl Texture {
         let [first, width, height] = three!(k => gather(simd, &self.levels, level * LEVEL_WORDS + k as u32));
         (first, [float(width), float(height)])
     }
+}
+
+/// The largest component of any of some shades.
+pub(super) fn largest<'a>(shades: impl Iterator<Item = &'a Shade>) -> f32 {
+    let components = |s: &Shade| [s.diffuse, s.specular].map(|c| c.r.max(c.g).max(c.b));
+    shades.flat_map(components).fold(1e-6, f32::max)
+}
+
+/// A shade as lanes read it, 16 bits of `largest` a component: diffuse red and green, diffuse blue and specular red, specular
+/// green and blue.
+pub(super) fn shade_words(shade: &Shade, largest: f32) -> [u32; 3] {
+    let code = |v: f32| (v.max(0.0) / largest * 65_535.0 + 0.5) as u32;
+    let (d, s) = (shade.diffuse, shade.specular);
+    [[d.r, d.g], [d.b, s.r], [s.g, s.b]].map(|[low, high]| code(low) | code(high) << 16)
+}
+
+/// Shade number `at` of a table of them: diffuse red, green and blue, then specular.
+#[inline(always)]
+pub(super) fn read_shade<S: Simd>(simd: S, words: &[u32], at: u32x16<S>, largest: f32) -> [f32x16<S>; 6] {
+    let first = at * 3;
+    let [a, b, c] = three!(k => gather(simd, words, first + k as u32));
+    let scale = largest / 65_535.0;
+    let low = three!(k => float([a, b, c][k] & 0xffff) * scale);
+    let high = three!(k => float([a, b, c][k] >> 16) * scale);
+    [low[0], high[0], low[1], high[1], low[2], high[2]]
 }
 
 /// Whole numbers below 2³¹ as floats.

@@ -13,10 +13,14 @@
 //! - **Source:** Hast, Barrera, Bengtsson, "Improved Bump Mapping by using Quadratic Vector Interpolation"; Duff 1979 for
 //!   the normalised method; Abbas et al. 2001 for the setup on the actual triangle.
 
+mod field;
 mod frames;
 mod order;
 mod six_point;
+mod vertices;
 
+pub use field::{Field, Interpolation, Normalized};
 pub use frames::{Corner, Midpoints, Rotated, Viewer};
 pub use order::Order;
 pub use six_point::{Linear, Quadratic, Sides, SixSamples, ToNormalized, Value};
+pub use vertices::{LitTriangle, Vertices};

@@ -6,9 +6,10 @@ use crate::raster::vectors::Rotated;
 
 /// The error of brightness that linear interpolation may make, relative to the brightness itself.
 ///
-/// Near white, sRGB codes change by 0.42 · 255 times a relative change of light: this is half a code. What is darker
-/// changes by less.
-const INVISIBLE: f32 = 0.5 / (0.42 * 255.0);
+/// Near white, sRGB codes change by 0.42 · 255 times a relative change of light: this is one code, and what is darker
+/// changes by less. Measured on bumpy tori under a highlight of exponent 32: where the linear triangles begin, the largest
+/// difference to the quadratic picture is one code; at twice the angle it is three.
+const INVISIBLE: f32 = 1.0 / (0.42 * 255.0);
 
 /// Of which degree the polynomials of a triangle are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -27,7 +28,7 @@ impl Order {
     ///
     /// Between unit vectors that are an angle θ apart, the linear one is shortest in the middle: cos(θ/2) long, about
     /// 1 − (1 − cos θ)/4. That error goes into the diffuse light as it is, into the highlight `shininess` times (the
-    /// derivative of a power). [`Self::Auto`] compares both with half a step of an 8-bit picture.
+    /// derivative of a power). [`Self::Auto`] compares both with a step of an 8-bit picture.
     ///
     /// - **Units:** `shininess` is the exponent of the highlight; 0 if there is none.
     pub fn is_quadratic(self, corners: &[Rotated; 3], shininess: f32) -> bool {
@@ -82,9 +83,9 @@ mod tests {
                 });
                 let worst = worst[0].max(worst[1]);
                 let quadratic = Order::Auto.is_quadratic(&bent(deg, deg), shininess);
-                // A twentieth of a code for the slopes' approximation.
-                assert!(quadratic || worst < 0.55, "{deg}° at {shininess} is linear, {worst} codes off");
-                assert!(!quadratic || worst > 0.45, "{deg}° at {shininess} is quadratic, {worst} codes off");
+                // A tenth of a code for the slopes' approximation.
+                assert!(quadratic || worst < 1.1, "{deg}° at {shininess} is linear, {worst} codes off");
+                assert!(!quadratic || worst > 0.9, "{deg}° at {shininess} is quadratic, {worst} codes off");
             }
         }
     }

@@ -33,12 +33,12 @@ pub struct Sides {
 }
 
 /// A triangle whose height is less than this share of its longest side is a sliver.
-const SLIVER: f32 = 1.0 / 512.0;
+const SLIVER: f32 = 1.0 / 1024.0;
 
 impl Sides {
     /// Whether the triangle is too thin for quadratic polynomials in f32.
     ///
-    /// Their coefficients grow with the square of length over height, and cancel: at 1/512 an error of up to 3e-3 is
+    /// Their coefficients grow with the square of length over height, and cancel: at 1/1024 an error of up to 3e-2 is
     /// left. Slivers cover next to nothing, and a linear function is good enough for them.
     pub fn is_sliver(&self) -> bool {
         let longest = self.first.length_squared().max(self.second.length_squared());
@@ -325,7 +325,7 @@ mod tests {
             midpoints: [at(0.5, 0.0), at(0.0, 0.5), at(0.5, 0.5)],
         };
         let mut worst = 0.0f64;
-        for t in shaped(1.0 / 512.0..1.0 / 400.0).take(100) {
+        for t in shaped(1.0 / 1024.0..1.0 / 800.0).take(100) {
             assert!(!t.is_sliver());
             let q = Quadratic::on_normalized(&samples).to_screen(&ToNormalized::new(&t).unwrap());
             let area = t.first.as_dvec2().perp_dot(t.second.as_dvec2());
@@ -334,8 +334,8 @@ mod tests {
                 worst = worst.max((f64::from(q.at(p.x, p.y)) - bent(u / area, v / area)).abs());
             }
         }
-        assert!(worst < 0.005, "{worst}");
-        assert!(shaped(0.0..1.0 / 600.0).take(100).all(|t| t.is_sliver()));
+        assert!(worst < 0.04, "{worst}");
+        assert!(shaped(0.0..1.0 / 1100.0).take(100).all(|t| t.is_sliver()));
     }
 
     #[test]

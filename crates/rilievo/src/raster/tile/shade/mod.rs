@@ -4,11 +4,13 @@ mod exact;
 mod glossy;
 mod pixel;
 mod table;
+mod vectors;
 
 pub(super) use exact::{Exact, Relief};
-pub(super) use glossy::{General, Glossy};
+pub(super) use glossy::{General, Glossy, Terms};
 pub(super) use pixel::Pixelwise;
-pub(super) use table::{Filtered, Nearest, Shades};
+pub(super) use table::{Filtered, Nearest, Shades, Static};
+pub(super) use vectors::Vectors;
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, u32x16};

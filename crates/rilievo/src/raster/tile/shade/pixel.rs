@@ -5,19 +5,22 @@ use fearless_simd::{Simd, u32x16};
 use glam::{Vec2, Vec3, Vec4};
 
 use crate::raster::frame::Shading;
-use crate::raster::reference::color;
+use crate::raster::reference::{base_color, shade};
 use crate::raster::scene::{Fragment, Object};
 use crate::raster::texture::{Footprint, Sampling};
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::buffer::word;
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
+use crate::raster::vectors::{Field, Rotated, Vertices};
 
 /// Any method, as the reference has it.
 pub(in crate::raster::tile) struct Pixelwise<'a> {
     pub(in crate::raster::tile) object: &'a Object<'a>,
     pub(in crate::raster::tile) shading: Shading<'a>,
     pub(in crate::raster::tile) sampling: Sampling,
+    /// For interpolated vectors: those of the mesh's corners.
+    pub(in crate::raster::tile) vertices: Option<Vertices>,
 }
 
 /// A triangle of the mesh: its vertices' weights divided by w, and 1/w, over the screen.
@@ -25,6 +28,8 @@ pub(in crate::raster::tile) struct Weights {
     planes: Planes<4>,
     vertices: [Vertex; 3],
     back_facing: bool,
+    /// Interpolated vectors of each light.
+    fields: Vec<Field>,
 }
 
 impl Shader<1> for Pixelwise<'_> {
@@ -36,17 +41,25 @@ impl Shader<1> for Pixelwise<'_> {
 
     fn set_up(&self, seen: &Seen<'_, 1>) -> Weights {
         let vertices = self.object.mesh.triangles()[seen.triangle.source() as usize];
+        let weights = seen.weights(vertices);
         let corners: [[f32; 4]; 3] = std::array::from_fn(|i| {
-            let own = || vertices.map(|v| f32::from(u8::from(v == seen.triangle.corners[i])));
             let inv_w = seen.attributes[i][0];
-            let [a, b, c] = seen.cut_weights(i).unwrap_or_else(own).map(|w| w * inv_w);
+            let [a, b, c] = weights[i].map(|w| w * inv_w);
             [a, b, c, inv_w]
         });
+        let fields = match (&self.shading, &self.vertices) {
+            (Shading::Interpolated(shading), Some(corners)) => {
+                let weights = weights.map(|w| w.map(f64::from));
+                shading.over_triangle(vertices, &weights, &seen.sides.for_vectors(), corners)
+            }
+            _ => Vec::new(),
+        };
         let [a, b, c] = &corners;
         Weights {
             planes: seen.sides.planes([a, b, c]),
             vertices: vertices.map(|v| Vertex::of(self.object.mesh, v)),
             back_facing: seen.triangle.back_facing(),
+            fields,
         }
     }
 
@@ -56,8 +69,16 @@ impl Shader<1> for Pixelwise<'_> {
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            let fragment = set_up.fragment(block.x[lane], block.y[lane]);
-            colors[lane] = word(color(self.object, &self.shading, &fragment, self.sampling).to_srgb());
+            let (x, y) = (block.x[lane], block.y[lane]);
+            let fragment = set_up.fragment(x, y);
+            let shade = match &self.shading {
+                Shading::Interpolated(shading) => shading.shade_by(&fragment, self.sampling, |light| {
+                    set_up.fields.get(light).map_or_else(Rotated::default, |field| field.at(x, y))
+                }),
+                other => shade(other, &fragment, self.sampling),
+            };
+            let base = base_color(self.object, &fragment, self.sampling);
+            colors[lane] = word(shade.over(base, self.object.blend).to_srgb());
         }
         colors.simd_into(simd)
     }
