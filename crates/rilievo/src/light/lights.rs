@@ -10,7 +10,7 @@ use crate::normal::{Normal, Object, Space, World};
 use crate::pose::Pose;
 
 /// How much brighter than at its reference distance a point light may get: a surface at the light itself stays finite.
-const BRIGHTEST: f32 = 1e6;
+pub(super) const BRIGHTEST: f32 = 1e6;
 
 /// A light in space `S`. Colours are linear colour times intensity: what a white matte surface facing the light shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,6 +106,11 @@ impl<S: Space> Lighting<S> {
     /// The same with point lights taken for directional ones as they are seen from `p`: what a shade table is lit by.
     pub fn from_place(&self, p: Vec3) -> Self {
         Self { lights: self.lights.iter().filter_map(|l| l.from_place(p)).collect(), ..self.clone() }
+    }
+
+    /// Where the sky is.
+    pub fn up(&self) -> Vec3 {
+        self.to_sky.inverse() * Vec3::Y
     }
 
     /// What a mirror with normal `n` shows to an eye in direction `view`; `roughness` 0 is sharp, 1 all blurred.

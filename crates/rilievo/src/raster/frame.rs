@@ -29,23 +29,24 @@ pub struct Frame<'a> {
 /// [`Error::Missing`] where an object lacks what its map or the method needs, [`Error::IndexRange`] if a map names a
 /// material that is not there.
 pub fn prepare<'a>(scene: &'a Scene<'a>, method: Method, filter: TextureFilter) -> Result<Frame<'a>> {
-    let shading = |object: &'a Object<'a>| {
-        check(object)?;
-        let lighting = scene.lighting.to_object(&object.pose);
-        let eye = object.pose.point_to_object(scene.camera.eye());
-        let interpolated =
-            |how| Ok::<_, Error>(Shading::Interpolated(Interpolated::new(how, object, lighting.clone(), eye)?));
-        Ok(match method {
-            Method::Table => Shading::Table(Table::new(object, &lighting, eye)?),
-            Method::Exact => Shading::Exact(Exact::new(object, lighting.clone(), eye)?),
-            Method::Static => Shading::Static(Baked::new(object)?),
-            Method::Linear => interpolated(Interpolation::Linear)?,
-            Method::Normalized => interpolated(Interpolation::Normalized)?,
-            Method::Quadratic { midpoints, order } => interpolated(Interpolation::Quadratic { midpoints, order })?,
-        })
-    };
-    let shadings = scene.objects.iter().map(shading).collect::<Result<_>>()?;
+    let shadings = scene.objects.iter().map(|object| shading(scene, object, method)).collect::<Result<_>>()?;
     Ok(Frame { scene, shadings, filter })
+}
+
+/// The shading of one object of a scene.
+pub(super) fn shading<'a>(scene: &Scene<'_>, object: &'a Object<'a>, method: Method) -> Result<Shading<'a>> {
+    check(object)?;
+    let lighting = scene.lighting.to_object(&object.pose);
+    let eye = object.pose.point_to_object(scene.camera.eye());
+    let interpolated = |how, lighting| Interpolated::new(how, object, lighting, eye).map(Shading::Interpolated);
+    match method {
+        Method::Table => Ok(Shading::Table(Table::new(object, &lighting, eye)?)),
+        Method::Exact => Ok(Shading::Exact(Exact::new(object, lighting, eye)?)),
+        Method::Static => Ok(Shading::Static(Baked::new(object)?)),
+        Method::Linear => interpolated(Interpolation::Linear, lighting),
+        Method::Normalized => interpolated(Interpolation::Normalized, lighting),
+        Method::Quadratic { midpoints, order } => interpolated(Interpolation::Quadratic { midpoints, order }, lighting),
+    }
 }
 
 pub(super) fn check(object: &Object<'_>) -> Result<()> {

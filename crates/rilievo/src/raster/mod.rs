@@ -27,11 +27,13 @@
 
 mod clip;
 mod frame;
+mod project;
 mod reference;
 pub mod scanline;
 mod scene;
 mod target;
 mod texture;
+pub mod tile;
 pub mod vectors;
 
 pub use frame::{Frame, prepare};

@@ -3,10 +3,12 @@
 use glam::{DVec2, DVec4, Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
-use crate::fill::Triangle;
+use crate::fill::{SUBPIXEL_BITS, Triangle};
+use crate::light::Shade;
 use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::frame::{Frame, Shading};
+use crate::raster::project::Projection;
 use crate::raster::scene::{Fragment, Object, Scene};
 use crate::raster::target::{Pixel, Target};
 use crate::raster::texture::{Footprint, Sampling, Taps};
@@ -38,11 +40,11 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
                     let depth = triangle.depth(lambda);
                     if depth < pixel.depth {
                         let fragment = triangle.fragment(object.mesh, lambda);
-                        let shade = match shading {
-                            Shading::Table(table) => table.shade(&fragment, sampling),
-                            Shading::Exact(exact) => exact.shade(&fragment, sampling),
-                            Shading::Static(baked) => baked.shade(&fragment, sampling),
-                            Shading::Interpolated(vectors) => vectors.shade(&fragment, sampling, fields.get(i), (x, y)),
+                        let shade = match (shading, fields.get(i)) {
+                            (Shading::Interpolated(shading), Some(fields)) => {
+                                shading.shade(&fragment, sampling, fields, (x, y))
+                            }
+                            _ => shade(shading, &fragment, sampling),
                         };
                         let color = shade.over(base_color(object, &fragment, sampling), object.blend);
                         *pixel = Pixel { color, depth };
@@ -50,6 +52,17 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
                 });
             }
         });
+    }
+}
+
+/// What a shading that needs no more than the fragment makes of it.
+pub(in crate::raster) fn shade(shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> Shade {
+    match shading {
+        Shading::Table(table) => table.shade(fragment, sampling),
+        Shading::Exact(exact) => exact.shade(fragment, sampling),
+        Shading::Static(baked) => baked.shade(fragment, sampling),
+        // Vectors belong to a triangle; there are as many fields as triangles.
+        Shading::Interpolated(_) => Shade::default(),
     }
 }
 
@@ -82,18 +95,16 @@ pub(in crate::raster) fn set_up(
     (width, height): (u32, u32),
 ) -> Vec<ScreenTriangle> {
     let mesh = object.mesh;
-    let view_projection = scene.camera.view_projection(width as f32 / height as f32);
-    let to_clip = |p: &Vec3| (view_projection * object.pose.point_to_world(*p).extend(1.0)).as_dvec4();
+    let projection = Projection::new(&scene.camera, &object.pose, (width, height));
     // Per vertex, not per corner: triangles that share a vertex must see it at the same bits.
-    let positions: Vec<DVec4> = mesh.positions().iter().map(to_clip).collect();
+    let positions: Vec<DVec4> = mesh.positions().iter().map(|&p| projection.to_clip(p).as_dvec4()).collect();
     let to_screen = |p: DVec4| {
-        let x = (p.x / p.w * 0.5 + 0.5) * f64::from(width);
-        let y = (0.5 - p.y / p.w * 0.5) * f64::from(height);
-        DVec2::new(x, y)
+        let vertex = projection.to_screen(p.as_vec4());
+        DVec2::new(f64::from(vertex.x), f64::from(vertex.y)) / f64::from(1 << SUBPIXEL_BITS)
     };
     let mut out = Vec::new();
     for &vertices in mesh.triangles() {
-        let polygon = clip(vertices.map(|v| positions[v as usize]));
+        let polygon = clip(vertices.map(|v| positions[v as usize]), projection.guard_band());
         for i in 2..polygon.len() {
             let corners = [polygon[0], polygon[i - 1], polygon[i]];
             let screen = corners.map(|c| to_screen(c.position));

@@ -31,6 +31,16 @@ impl<'a> Exact<'a> {
         Ok(Self { detail: object.detail, materials: object.materials, lighting, eye })
     }
 
+    /// The light, in object space.
+    pub(in crate::raster) fn lighting(&self) -> &Lighting<ObjectSpace> {
+        &self.lighting
+    }
+
+    /// The eye, in object space.
+    pub(in crate::raster) fn eye(&self) -> Vec3 {
+        self.eye
+    }
+
     pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let smooth = Normal::new_or(fragment.normal, Normal::Z);
         let view = Normal::new_or(self.eye - fragment.position, smooth);

@@ -61,34 +61,57 @@ impl<'a> Interpolated<'a> {
         Ok(Self { how, object, lighting, eye })
     }
 
+    /// The vectors in all corners of the mesh.
+    pub(in crate::raster) fn vertices(&self) -> Vertices {
+        Vertices::new(self.object.mesh, &self.lighting.lights, self.eye)
+    }
+
+    /// The light, in object space.
+    pub(in crate::raster) fn lighting(&self) -> &Lighting<ObjectSpace> {
+        &self.lighting
+    }
+
     /// The vectors over all triangles.
     pub(in crate::raster) fn fields(&self, triangles: &[ScreenTriangle]) -> Vec<Fields> {
-        let vertices = Vertices::new(self.object.mesh, &self.lighting.lights, self.eye);
+        let vertices = self.vertices();
         triangles.iter().map(|t| self.fields_over(t, &vertices)).collect()
     }
 
-    fn fields_over(&self, triangle: &ScreenTriangle, vertices: &Vertices<'_>) -> Fields {
+    fn fields_over(&self, triangle: &ScreenTriangle, vertices: &Vertices) -> Fields {
         let corners = triangle.shape.corners();
         let from_first = |i: usize| (corners[i] - corners[0]).as_vec2();
         let sides = Sides { first: from_first(1), second: from_first(2) };
         let weights = triangle.corners.map(|c| c.weights);
-        let shininess = self.object.highest_shininess();
-        let field = |light| {
-            let lit = vertices.triangle(triangle.vertices, &weights, light);
-            Field::new(self.how, (&lit.corners, &lit.vectors), &sides, &vertices.viewer(light), shininess)
-        };
-        Fields { origin: corners[0].to_array(), fields: (0..vertices.lights()).filter_map(field).collect() }
+        let fields = self.over_triangle(triangle.vertices, &weights, &sides, vertices);
+        Fields { origin: corners[0].to_array(), fields }
     }
 
-    /// The pixel (x, y) of a triangle with these fields; only ambient light without any.
+    /// The vectors over a triangle of the mesh, or the part of it whose corners have these weights: one field for each light,
+    /// none if it has no area.
+    pub(in crate::raster) fn over_triangle(
+        &self,
+        corners: [u32; 3],
+        weights: &[[f64; 3]; 3],
+        sides: &Sides,
+        vertices: &Vertices,
+    ) -> Vec<Field> {
+        let shininess = self.object.highest_shininess();
+        let field = |light| {
+            let lit = vertices.triangle(corners, weights, light);
+            Field::new(self.how, (&lit.corners, &lit.vectors), sides, &vertices.viewer(light), shininess)
+        };
+        (0..vertices.lights()).filter_map(field).collect()
+    }
+
+    /// The pixel (x, y) of a triangle with these fields.
     pub(in crate::raster) fn shade(
         &self,
         fragment: &Fragment,
         sampling: Sampling,
-        fields: Option<&Fields>,
+        fields: &Fields,
         (x, y): (u32, u32),
     ) -> Shade {
-        self.shade_by(fragment, sampling, |light| fields.map_or_else(Rotated::default, |f| f.at(light, x, y)))
+        self.shade_by(fragment, sampling, |light| fields.at(light, x, y))
     }
 
     /// A pixel at which light number `i` has the vectors `vectors(i)`.

@@ -9,7 +9,7 @@ mod table;
 pub(super) use baked::Baked;
 pub use baked::bake_light_map;
 pub use draw::draw;
-pub(super) use draw::{ScreenTriangle, base_color, set_up};
+pub(super) use draw::{ScreenTriangle, base_color, set_up, shade};
 pub(super) use exact::Exact;
 pub(super) use interpolated::Interpolated;
 pub(super) use table::Table;

@@ -39,6 +39,16 @@ impl<'a> Table<'a> {
         Ok(Self { map, front, back })
     }
 
+    /// The shades of front faces.
+    pub(in crate::raster) fn front(&self) -> &ShadeTable {
+        &self.front
+    }
+
+    /// The shades of back faces, if they are drawn.
+    pub(in crate::raster) fn back(&self) -> Option<&ShadeTable> {
+        self.back.as_ref()
+    }
+
     /// Looks up each texel, then filters the colours: indices are never averaged.
     pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let levels = self.map.indices();

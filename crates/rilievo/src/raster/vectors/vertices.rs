@@ -9,8 +9,8 @@ use crate::surface::Mesh;
 
 /// All corners of a mesh with their frames, and for each light the vectors in them, computed once a frame.
 #[derive(Debug, Clone)]
-pub struct Vertices<'a> {
-    lights: &'a [Light<Object>],
+pub struct Vertices {
+    lights: Vec<Light<Object>>,
     eye: Vec3,
     corners: Vec<Corner>,
     /// Light by light, the vectors of all corners.
@@ -28,9 +28,9 @@ pub struct LitTriangle {
     pub vectors: [Rotated; 3],
 }
 
-impl<'a> Vertices<'a> {
+impl Vertices {
     /// For lights and an eye in object space.
-    pub fn new(mesh: &Mesh, lights: &'a [Light<Object>], eye: Vec3) -> Self {
+    pub fn new(mesh: &Mesh, lights: &[Light<Object>], eye: Vec3) -> Self {
         let has_tangents = !mesh.tangents().is_empty();
         let corner = |i: usize| Corner {
             position: mesh.positions()[i],
@@ -38,7 +38,7 @@ impl<'a> Vertices<'a> {
             tangent: mesh.tangents().get(i).copied().unwrap_or(Vec4::ZERO),
         };
         let corners: Vec<Corner> = (0..mesh.positions().len()).map(corner).collect();
-        let mut vertices = Self { lights, eye, corners, vectors: Vec::new(), has_tangents };
+        let mut vertices = Self { lights: lights.to_vec(), eye, corners, vectors: Vec::new(), has_tangents };
         if has_tangents {
             let all = |light| {
                 let viewer = vertices.viewer(light);

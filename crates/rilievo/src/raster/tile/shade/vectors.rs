@@ -1,0 +1,132 @@
+//! Light and half vectors interpolated over the screen: a pixel multiplies them with its normal as the map has it.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x16, u32x16};
+use glam::Vec3;
+
+use super::glossy::{Products, Terms};
+use super::{Finish, mean};
+use crate::raster::reference::Interpolated;
+use crate::raster::tile::batch::{Block, Seen, Shader};
+use crate::raster::tile::front::Vertex;
+use crate::raster::tile::planes::Planes;
+use crate::raster::tile::texture::{Look, Texture, footprint};
+use crate::raster::vectors::{Field, Linear, Quadratic, Rotated, Vertices};
+use crate::simd::{Vec3x16, dot, rsqrt, splat, splat3, three};
+
+/// Texture coordinates and 1/w.
+const ATTRIBUTES: usize = 3;
+
+/// One material, lit by interpolated vectors.
+pub(in crate::raster::tile) struct Vectors<'a> {
+    /// The map of tangent-space normals; the mesh's own without it.
+    pub(in crate::raster::tile) relief: Option<(&'a Texture, Look)>,
+    pub(in crate::raster::tile) shading: Interpolated<'a>,
+    pub(in crate::raster::tile) vertices: Vertices,
+    pub(in crate::raster::tile) mesh: &'a crate::surface::Mesh,
+    pub(in crate::raster::tile) terms: Terms,
+    pub(in crate::raster::tile) finish: Finish<'a>,
+}
+
+/// A triangle.
+pub(in crate::raster::tile) struct SetUp {
+    planes: Planes<ATTRIBUTES>,
+    /// One for each light.
+    fields: Vec<Field>,
+    side: f32,
+}
+
+impl Shader<ATTRIBUTES> for Vectors<'_> {
+    type SetUp = SetUp;
+
+    fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
+        [vertex.uv.x * inv_w, vertex.uv.y * inv_w, inv_w]
+    }
+
+    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> SetUp {
+        let vertices = self.mesh.triangles()[seen.triangle.source() as usize];
+        let weights = seen.weights(vertices).map(|w| w.map(f64::from));
+        SetUp {
+            planes: seen.sides.planes(seen.attributes),
+            fields: self.shading.over_triangle(vertices, &weights, &seen.sides.for_vectors(), &self.vertices),
+            side: if seen.triangle.back_facing() { -1.0 } else { 1.0 },
+        }
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>) -> u32x16<S> {
+        let at = footprint(simd, &set_up.planes, 0, block.x, block.y);
+        let normal = match self.relief {
+            None => splat3(simd, [0.0, 0.0, set_up.side]),
+            Some((texture, look)) => {
+                let n = mean(
+                    simd,
+                    texture,
+                    &look,
+                    &at,
+                    #[inline(always)]
+                    |texel| texture.vector(simd, texel, true),
+                );
+                let length = rsqrt(simd, dot(n, n).max(splat(simd, 1e-20))) * set_up.side;
+                three!(k => n[k] * length)
+            }
+        };
+        let mut sum = self.terms.start(simd);
+        for (light, field) in set_up.fields.iter().enumerate() {
+            let products = match field {
+                Field::Linear(field) => {
+                    let (l, h) = linear(simd, field, block);
+                    Products { light: dot(normal, l), half: dot(normal, h) }
+                }
+                Field::Normalized(field) => {
+                    let (l, h) = linear(simd, &field.vectors, block);
+                    Products {
+                        light: dot(normal, l) * inverse_length(simd, l),
+                        half: dot(normal, h) * inverse_length(simd, h),
+                    }
+                }
+                Field::Quadratic(field) => {
+                    let (l, h) = quadratic(simd, field, block);
+                    Products { light: dot(normal, l), half: dot(normal, h) }
+                }
+            };
+            self.terms.add(simd, light, &products, &mut sum);
+        }
+        self.finish.encode(simd, sum[0], sum[1], &at)
+    }
+}
+
+#[inline(always)]
+fn inverse_length<S: Simd>(simd: S, v: Vec3x16<S>) -> f32x16<S> {
+    rsqrt(simd, dot(v, v).max(splat(simd, 1e-20)))
+}
+
+#[inline(always)]
+fn linear<S: Simd>(simd: S, f: &Linear<Rotated>, block: &Block<S>) -> (Vec3x16<S>, Vec3x16<S>) {
+    let Linear { a, b, c } = f;
+    (linear3(simd, [a.light, b.light, c.light], block), linear3(simd, [a.half, b.half, c.half], block))
+}
+
+/// a x + b y + c.
+#[inline(always)]
+fn linear3<S: Simd>(simd: S, [a, b, c]: [Vec3; 3], block: &Block<S>) -> Vec3x16<S> {
+    let row = three!(k => splat(simd, b[k]).mul_add(block.y, splat(simd, c[k])));
+    three!(k => splat(simd, a[k]).mul_add(block.x, row[k]))
+}
+
+#[inline(always)]
+fn quadratic<S: Simd>(simd: S, f: &Quadratic<Rotated>, block: &Block<S>) -> (Vec3x16<S>, Vec3x16<S>) {
+    let Quadratic { a, b, c, d, e, f } = f;
+    (
+        quadratic3(simd, [a.light, b.light, c.light, d.light, e.light, f.light], block),
+        quadratic3(simd, [a.half, b.half, c.half, d.half, e.half, f.half], block),
+    )
+}
+
+/// (a x + (c y + d)) x + ((b y + e) y + f): Horner's scheme; what has no x in it is the same along a row of blocks.
+#[inline(always)]
+fn quadratic3<S: Simd>(simd: S, [a, b, c, d, e, f]: [Vec3; 6], block: &Block<S>) -> Vec3x16<S> {
+    let slope = three!(k => splat(simd, c[k]).mul_add(block.y, splat(simd, d[k])));
+    let level = three!(k => splat(simd, b[k]).mul_add(block.y, splat(simd, e[k])).mul_add(block.y, splat(simd, f[k])));
+    three!(k => splat(simd, a[k]).mul_add(block.x, slope[k]).mul_add(block.x, level[k]))
+}
