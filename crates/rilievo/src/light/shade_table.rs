@@ -55,13 +55,14 @@ impl ShadeTable {
     }
 
     /// The colours of a white surface, encoded: what a palette holds.
-    pub fn to_srgb(&self) -> Vec<Rgba8> {
-        self.colors().map(LinearRgb::to_srgb).collect()
+    pub fn to_srgb(&self, blend: Blend) -> Vec<Rgba8> {
+        self.colors(blend).map(LinearRgb::to_srgb).collect()
     }
 
-    /// Entries of the kind *colour*: what is shown as it is, in linear light (Tarini et al. 2000, § 5.1 and § 7.3).
-    pub fn colors(&self) -> impl ExactSizeIterator<Item = LinearRgb> {
-        self.entries.iter().map(|s| s.over(LinearRgb::WHITE, Blend::Material))
+    /// Entries of the kind *colour*: what is shown as it is, in linear light (Tarini et al. 2000, § 5.1 and § 7.3): the colours of
+    /// a white surface.
+    pub fn colors(&self, blend: Blend) -> impl ExactSizeIterator<Item = LinearRgb> {
+        self.entries.iter().map(move |s| s.over(LinearRgb::WHITE, blend))
     }
 
     /// Entries of the kind *intensity*: the brightness of the diffuse light, for the base colour to be multiplied by.
@@ -123,7 +124,7 @@ mod tests {
         let shades = make(&materials).unwrap();
         assert!(shades.entries()[0].diffuse.g > 0.0 && shades.entries()[1].diffuse.g == 0.0);
         assert_eq!(shades.entries()[2].diffuse, LinearRgb::new(1.0, 0.0, 0.0));
-        assert_eq!(shades.colors().collect::<Vec<_>>()[2], LinearRgb::new(1.0, 0.0, 0.0));
+        assert_eq!(shades.colors(Blend::Material).collect::<Vec<_>>()[2], LinearRgb::new(1.0, 0.0, 0.0));
         assert!((shades.intensities().last().unwrap() - 0.2126).abs() < 1e-6);
         assert!(make(&materials[..2]).is_err());
     }
