@@ -22,6 +22,48 @@ use fearless_simd::{Simd, f32x16};
 /// Lanes of the vectors here.
 pub(crate) const LANES: usize = 16;
 
+/// `[f(0), f(1), f(2)]` without a closure.
+///
+/// Instructions of a set are only inlined into functions compiled for that set. A closure in `[T; 3]::map` is a function of its
+/// own that is not, and each addition in it becomes a call: twenty times slower, and nothing says so. Hence this; and
+/// `#[inline(always)]` on every function and on every closure that has lanes in it.
+macro_rules! three {
+    ($k:ident => $value:expr) => {
+        [
+            {
+                let $k = 0usize;
+                $value
+            },
+            {
+                let $k = 1usize;
+                $value
+            },
+            {
+                let $k = 2usize;
+                $value
+            },
+        ]
+    };
+}
+
+/// `[f(0), f(1)]`, as [`three`].
+macro_rules! two {
+    ($k:ident => $value:expr) => {
+        [
+            {
+                let $k = 0usize;
+                $value
+            },
+            {
+                let $k = 1usize;
+                $value
+            },
+        ]
+    };
+}
+
+pub(crate) use {three, two};
+
 /// A vector of three components in each lane.
 pub(crate) type Vec3x16<S> = [f32x16<S>; 3];
 
@@ -34,14 +76,13 @@ pub(crate) fn dot<S: Simd>(a: Vec3x16<S>, b: Vec3x16<S>) -> f32x16<S> {
 /// `v` times `s`.
 #[inline(always)]
 pub(crate) fn scale<S: Simd>(v: Vec3x16<S>, s: f32x16<S>) -> Vec3x16<S> {
-    v.map(|c| c * s)
+    three!(k => v[k] * s)
 }
 
 /// The vector product.
 #[inline(always)]
 pub(crate) fn cross<S: Simd>(a: Vec3x16<S>, b: Vec3x16<S>) -> Vec3x16<S> {
-    let part = |i: usize, j: usize| a[i].mul_sub(b[j], a[j] * b[i]);
-    [part(1, 2), part(2, 0), part(0, 1)]
+    [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
 /// `v` at unit length. The zero vector becomes no number.
@@ -59,7 +100,7 @@ pub(crate) fn splat<S: Simd>(simd: S, value: f32) -> f32x16<S> {
 /// One vector in all lanes.
 #[inline(always)]
 pub(crate) fn splat3<S: Simd>(simd: S, value: [f32; 3]) -> Vec3x16<S> {
-    value.map(|v| splat(simd, v))
+    three!(k => splat(simd, value[k]))
 }
 
 /// The token of every instruction set this machine has, the plainest first: what tests run kernels on.
