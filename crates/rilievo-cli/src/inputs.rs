@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use rilievo::color::Picture;
 use rilievo::height::HeightMap;
+use rilievo::light::Environment;
 use rilievo::{Convention, Grid, MaterialMap, Space};
 use rilievo_io::{AnyIndexed, EmbeddedMaterials, ImportAs, IndexedFile, Limits, NormalImage, NormalRows, Source};
 
@@ -87,6 +88,14 @@ pub(crate) fn indexed(source: &Source, import: &ImportAs) -> Result<IndexedFile>
 /// Reads a material map.
 pub(crate) fn materials(path: &Path) -> Result<MaterialMap> {
     Ok(rilievo_io::decode_materials(&open(path)?, &Limits::default())?)
+}
+
+/// Reads the surroundings that mirrors show.
+pub(crate) fn environment(path: &Path) -> Result<Environment> {
+    let source = open(path)?;
+    let (environment, warnings) = rilievo_io::read_environment(&source, &Limits::default())?;
+    tell(&source, &warnings);
+    Ok(environment)
 }
 
 /// Reads a picture.

@@ -16,9 +16,10 @@ mod write;
 
 pub use error::{Action, Error, Result};
 pub use image::{
-    Depth, EmbeddedMaterials, HeightImage, NormalImage, NormalRows, decode_height, decode_materials, decode_normals,
-    decode_normals_with_materials, decode_picture, encode_apng, encode_gray_png8, encode_gray_png16,
-    encode_normals_exr, encode_normals_png8, encode_normals_png16, encode_picture_png, repair_normals, sample_depth,
+    Depth, EmbeddedMaterials, EnvironmentImage, HeightImage, NormalImage, NormalRows, decode_environment,
+    decode_height, decode_materials, decode_normals, decode_normals_with_materials, decode_picture, encode_apng,
+    encode_gray_png8, encode_gray_png16, encode_normals_exr, encode_normals_png8, encode_normals_png16,
+    encode_picture_png, read_environment, repair_normals, sample_depth,
 };
 pub use indexed::{
     AnyIndexed, AnyTable, ImportAs, IndexedFile, PalettePng, PaletteTable, SpaceKind, decode_indexed,

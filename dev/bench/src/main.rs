@@ -8,6 +8,7 @@ mod clock;
 mod harness;
 mod height;
 mod inputs;
+mod light;
 mod machine;
 mod quantize;
 mod relight;
@@ -43,6 +44,7 @@ const GROUPS: [Group; 7] = [
         run: size::run,
     },
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
+    Group { name: "light", what: "a table lit sixteen normals at a time against one at a time", run: light::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },
     Group {

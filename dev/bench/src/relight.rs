@@ -26,7 +26,7 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
     let rewrite = || {
         let palette = PalettePng::parse_bytes("bench", &file)?.table(&ImportAs::default())?;
         let AnyTable::Tangent(table) = &palette.table else { anyhow::bail!("the file is not in tangent space") };
-        let colors: Vec<_> = shades(table)?.to_srgb().iter().map(|c| c.rgb()).collect();
+        let colors: Vec<_> = shades(table)?.to_srgb(Blend::Add).iter().map(|c| c.rgb()).collect();
         Ok(relight_in_place(&mut picture, &colors)?)
     };
     let look_up = || Ok(relight(&map, &shades(map.table())?, None, Blend::Add)?);

@@ -194,7 +194,7 @@ fn palette_relighting_is_relighting() {
     let file = Source::from_bytes("bricks.png", encode_indexed_png(&map, Convention::Gl).unwrap());
     let materials = [Material::default()];
     let shades = ShadeTable::new(map.table(), &materials, &lighting(), Normal::Z, glam::Vec3::ZERO).unwrap();
-    let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
+    let colors: Vec<[u8; 3]> = shades.to_srgb(Blend::Add).into_iter().map(Rgba8::rgb).collect();
     let relit = PalettePng::parse(&file).unwrap().relit(&colors).unwrap();
     let shown: Picture = decode_picture(&Source::from_bytes("relit.png", relit), &Limits::default()).unwrap();
     assert_eq!(shown, relight(&map, &shades, None, Blend::Add).unwrap());

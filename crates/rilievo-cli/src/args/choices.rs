@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use rilievo::height::Filter;
+use rilievo::light::Blend;
 use rilievo::quantize::{Dither, Effort};
 use rilievo::raster::{Method, TextureFilter};
 use rilievo::{Convention, Edges};
@@ -114,15 +115,19 @@ choice!(
         Trilinear => TextureFilter::Trilinear,
     }
 );
-
-/// How surfaces answer light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ModelArg {
-    /// Ambient and diffuse.
-    Lambert,
-    /// Ambient, diffuse and highlights.
-    BlinnPhong,
-}
+choice!(
+    /// How light meets the base colour.
+    BlendArg => Blend {
+        /// Light adds up: colour x diffuse + specular.
+        Add => Blend::Add,
+        /// Highlights cover what they lie on: eq. (1) of the source.
+        Exact => Blend::Exact,
+        /// The same more cheaply; white things have no highlights: eq. (2).
+        Approximate => Blend::Approximate,
+        /// The colour is the material's; --color plays no part.
+        Material => Blend::Material,
+    }
+);
 
 impl ConventionArg {
     /// How generated names say it.

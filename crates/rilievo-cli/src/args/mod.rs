@@ -4,13 +4,14 @@ mod choices;
 mod given;
 mod light;
 mod maps;
+mod model;
 mod values;
 
 pub(crate) use choices::{
-    Bits, ConventionArg, DitherArg, EdgesArg, EffortArg, FilterArg, MaterialsInArg, MethodArg, ModelArg, SamplingArg,
+    Bits, BlendArg, ConventionArg, DitherArg, EdgesArg, EffortArg, FilterArg, MaterialsInArg, MethodArg, SamplingArg,
     SpaceArg,
 };
 pub(crate) use given::Given;
-pub(crate) use light::{LightArgs, MaterialArgs};
+pub(crate) use light::{LightArgs, MaterialArgs, PointLightArgs, Surroundings};
 pub(crate) use maps::{HeightArgs, OntoArgs};
 pub(crate) use values::{CameraArg, ColorArg, SizeArg, number, pair};

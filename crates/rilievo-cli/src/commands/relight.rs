@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use glam::Vec3;
 use rilievo::color::Picture;
-use rilievo::light::{Blend, Lighting, Material, ShadeTable, relight};
+use rilievo::light::{Lighting, Material, ShadeTable, relight};
 use rilievo::{Normal, NormalTable, QuantizedMap, Rgba8, Space};
 use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
 
-use crate::args::{ConventionArg, Given, LightArgs, MaterialArgs, SpaceArg};
+use crate::args::{ConventionArg, Given, LightArgs, MaterialArgs, SpaceArg, Surroundings};
 use crate::exit::{self, Outcome, remark, usage};
 use crate::progress::Bars;
 use crate::{batch, inputs};
@@ -20,6 +20,7 @@ Examples:
   rilievo relight bricks_256.png --light -60,30,ffddaa --light 80,20,8090ff*0.5 -o lit.png
   rilievo relight vase_2048.ktx2 --frames 36 -o turning_light.png
   rilievo relight palette_made_by_pngquant.png --convention dx
+  rilievo relight coin_256.png --model metallic-roughness:1,0.3 --environment studio.hdr --material 0,d4af37
 
 An indexed PNG is relit by rewriting its palette: no pixel is decoded.";
 
@@ -65,20 +66,21 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
         given.unused(&["delay"], "one frame is no animation; see --frames");
     }
     let name = |input: &Path| format!("{}_relit.png", batch::stem(input));
-    let read: Vec<&Path> = args.color.as_deref().into_iter().collect();
+    let read: Vec<&Path> = args.color.iter().chain(&args.light.environment).map(PathBuf::as_path).collect();
+    let surroundings = args.light.surroundings(given)?;
     batch::run(&args.inputs, args.output.as_deref(), &["png"], &read, name, |input, output| {
-        convert(args, input, output)
+        convert(args, &surroundings, input, output)
     })
 }
 
-fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
+fn convert(args: &Args, surroundings: &Surroundings, input: &Path, output: &Path) -> Result<Outcome> {
     let source = inputs::open(input)?;
     let bytes = if args.frames == 1 && args.color.is_none() && io::is_palette_png(&source) {
-        relit_palette(args, &source)?
+        relit_palette(args, surroundings, &source)?
     } else {
         match inputs::indexed(&source, &args.import())?.map {
-            AnyIndexed::Tangent(map) => relit_map(args, &map, input)?,
-            AnyIndexed::Object(map) => relit_map(args, &map, input)?,
+            AnyIndexed::Tangent(map) => relit_map(args, surroundings, &map, input)?,
+            AnyIndexed::Object(map) => relit_map(args, surroundings, &map, input)?,
         }
     };
     io::write_atomic(output, &bytes)?;
@@ -87,29 +89,35 @@ fn convert(args: &Args, input: &Path, output: &Path) -> Result<Outcome> {
 }
 
 /// Rewrites the palette and its checksum; every other byte stays.
-fn relit_palette(args: &Args, source: &Source) -> Result<Vec<u8>> {
+fn relit_palette(args: &Args, surroundings: &Surroundings, source: &Source) -> Result<Vec<u8>> {
     let png = PalettePng::parse(source)?;
     let palette = png.table(&args.import())?;
     for warning in &palette.warnings {
         exit::warn(source.name(), warning);
     }
+    let lighting = args.light.lighting(surroundings, 0.0);
     let shades = match &palette.table {
-        AnyTable::Tangent(table) => light_table(args, table, &args.light.lighting(0.0))?,
-        AnyTable::Object(table) => light_table(args, table, &args.light.lighting(0.0))?,
+        AnyTable::Tangent(table) => light_table(args, table, &lighting)?,
+        AnyTable::Object(table) => light_table(args, table, &lighting)?,
     };
-    let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
+    let colors: Vec<[u8; 3]> = shades.to_srgb(args.light.blend.into()).into_iter().map(Rgba8::rgb).collect();
     Ok(png.relit(&colors)?)
 }
 
-fn relit_map<S: Space>(args: &Args, map: &QuantizedMap<S>, input: &Path) -> Result<Vec<u8>> {
+fn relit_map<S: Space>(
+    args: &Args,
+    surroundings: &Surroundings,
+    map: &QuantizedMap<S>,
+    input: &Path,
+) -> Result<Vec<u8>> {
     let base: Option<Picture> = args.color.as_deref().map(inputs::picture).transpose()?;
     let progress = Bars::new(input.display().to_string());
     rilievo::Progress::begin(&progress, "relighting", args.frames.into());
     let mut frames = Vec::new();
     for frame in 0..args.frames {
         let turn = frame as f32 / args.frames as f32 * std::f32::consts::TAU;
-        let shades = light_table(args, map.table(), &args.light.lighting(turn))?;
-        frames.push(relight(map, &shades, base.as_ref(), Blend::Add)?);
+        let shades = light_table(args, map.table(), &args.light.lighting(surroundings, turn))?;
+        frames.push(relight(map, &shades, base.as_ref(), args.light.blend.into())?);
         rilievo::Progress::advance(&progress, 1);
     }
     Ok(progress.step("packing", || match frames.as_slice() {
@@ -125,8 +133,7 @@ fn light_table<S: Space>(
     lighting: &Lighting<rilievo::World>,
 ) -> Result<ShadeTable> {
     let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
-    let materials = args.material.resolve(count, |_| Material::default());
-    let materials: Vec<Material> = materials.into_iter().map(|m| args.light.apply(m)).collect();
+    let materials = args.material.resolve(count, &args.light, |_| Material::default());
     let shades = ShadeTable::new(table, &materials, &lighting.facing(), Normal::Z, Vec3::ZERO);
     shades.map_err(|e| usage(e.to_string()))
 }

@@ -10,7 +10,9 @@ use rilievo::raster::{self, Frame, Method, Object, Scene, Target};
 use rilievo::{Pose, Progress};
 use rilievo_io as io;
 
-use crate::args::{CameraArg, ColorArg, Given, LightArgs, MaterialArgs, MethodArg, SamplingArg, SizeArg};
+use crate::args::{
+    CameraArg, ColorArg, Given, LightArgs, MaterialArgs, MethodArg, PointLightArgs, SamplingArg, SizeArg, Surroundings,
+};
 use crate::batch::{check_output, named};
 use crate::exit::{Outcome, remark, usage};
 use crate::progress::Bars;
@@ -26,6 +28,10 @@ Examples:
   rilievo render plane --height dem.tif --edges clamp --depth 0.08 --light -60,25
   rilievo render vase --frames 36 -o turntable.png                  an animated PNG
   rilievo render torus:16x9 --method exact -o smooth.png            no map: the mesh's own normals
+  rilievo render vase --model chrome
+  rilievo render rock.obj --normals rock_n.png --model environment:0.2 --environment city.hdr
+  rilievo render vase --model metallic-roughness:1,0.35 --environment city.hdr --material 1,d0a040
+  rilievo render vase --method exact --point-light -60,20,1.3,ffc080*2
 
 --camera and --light turn the same way: azimuth 0 is the front, 90 the right; elevation goes up.";
 
@@ -52,6 +58,8 @@ pub(crate) struct Args {
     camera: CameraArg,
     #[command(flatten, next_help_heading = "Light")]
     light: LightArgs,
+    #[command(flatten, next_help_heading = "Light")]
+    points: PointLightArgs,
     #[command(flatten, next_help_heading = "Light")]
     material: MaterialArgs,
     /// Colour behind the object [default: transparent].
@@ -92,7 +100,7 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     let name = args.method.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
     let default_output = || PathBuf::from(format!("{}_{name}.png", args.relief.surface.stem()));
     let output = args.output.clone().unwrap_or_else(default_output);
-    check_output(&output, &["png"], &args.relief.files())?;
+    check_output(&output, &["png"], &read_files(args))?;
     if args.frames == 1 {
         given.unused(&["turn", "delay"], "one frame is no animation; see --frames");
     }
@@ -109,7 +117,7 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
         let (entries, rms) = (made.entries, made.error.rms_rad.to_degrees());
         remark(format!("{}: {entries} entries, {rms:.3} degrees RMS", args.relief.surface.stem()));
     }
-    let mut shoot = Shoot::new(args, &relief, target);
+    let mut shoot = Shoot::new(args, &relief, target, args.light.surroundings(given)?);
     let progress = Bars::new(args.relief.surface.stem());
     progress.begin("rendering", args.frames.into());
     let mut pictures = Vec::new();
@@ -130,21 +138,29 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
+/// The files that are read, so that none of them is written over.
+fn read_files(args: &Args) -> Vec<&Path> {
+    args.relief.files().into_iter().chain(args.light.environment.as_deref()).collect()
+}
+
 /// The frames of one call, and what they took.
 struct Shoot<'a> {
     args: &'a Args,
     relief: &'a Relief,
     target: Target,
     materials: Vec<rilievo::light::Material>,
+    surroundings: Surroundings,
     table_seconds: f64,
     draw_seconds: f64,
 }
 
 impl<'a> Shoot<'a> {
-    fn new(args: &'a Args, relief: &'a Relief, target: Target) -> Self {
-        let materials = args.material.resolve(relief.material_count(), |m| relief.default_materials.material(m));
-        let materials = materials.into_iter().map(|m| args.light.apply(m)).collect();
-        Self { args, relief, target, materials, table_seconds: 0.0, draw_seconds: 0.0 }
+    fn new(args: &'a Args, relief: &'a Relief, target: Target, surroundings: Surroundings) -> Self {
+        let materials = {
+            let default = |m| relief.default_materials.material(m);
+            args.material.resolve(relief.material_count(), &args.light, default)
+        };
+        Self { args, relief, target, materials, surroundings, table_seconds: 0.0, draw_seconds: 0.0 }
     }
 
     fn frame(&mut self, frame: u32) -> Result<Picture> {
@@ -155,14 +171,17 @@ impl<'a> Shoot<'a> {
             // About the middle of the object, not about its origin.
             pose: Pose::turned_about(self.relief.mesh.bounding_sphere().0, turn_of(Turn::Object)),
             base_color: self.relief.base_color(),
+            blend: args.light.blend.into(),
             double_sided: args.double_sided,
             edges: args.relief.edges(),
             ..Object::new(&self.relief.mesh, self.relief.detail(), &self.materials)
         };
         let aspect = args.size.width as f32 / args.size.height as f32;
+        let mut lighting = args.light.lighting(&self.surroundings, turn_of(Turn::Light));
+        lighting.lights.extend(args.points.resolve(self.relief.mesh.bounding_sphere(), turn_of(Turn::Light)));
         let scene = Scene {
             objects: vec![object],
-            lighting: args.light.lighting(turn_of(Turn::Light)),
+            lighting,
             camera: args.camera.turned(turn_of(Turn::Camera)).resolve(&self.relief.mesh, aspect)?,
         };
         let started = Instant::now();

@@ -7,7 +7,7 @@ use anyhow::Result;
 use glam::{Vec2, Vec3};
 use rilievo::color::Picture;
 use rilievo::height::{Filter, to_normals};
-use rilievo::light::{Light, Lighting, ShadeTable};
+use rilievo::light::{Blend, Light, Lighting, ShadeTable};
 use rilievo::measure::{DEFAULT_PIXELS_PER_DEGREE, flip_mean, picture_stats};
 use rilievo::normal::normal_levels;
 use rilievo::quantize::{Effort, Options, Quantized, fejes_toth_rms_rad, quantize};
@@ -135,7 +135,7 @@ impl<'a> Demo<'a> {
             let materials = vase::materials_colored();
             let table = quantized.map.table();
             let shades = ShadeTable::new(table, &materials, &lights.facing(), Normal::Z, Vec3::ZERO)?;
-            let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
+            let colors: Vec<[u8; 3]> = shades.to_srgb(Blend::Add).into_iter().map(Rgba8::rgb).collect();
             let relit = png.relit(&colors)?;
             microseconds.push(started.elapsed().as_secs_f64() * 1e6);
             entries.push(self.write(&format!("flat_lit_{side}.png"), &relit, format!("light from the {side}"))?);

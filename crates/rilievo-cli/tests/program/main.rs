@@ -3,6 +3,7 @@
 
 mod compare;
 mod hostile;
+mod light;
 mod normal;
 mod quantize;
 mod relight;

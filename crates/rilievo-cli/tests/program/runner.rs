@@ -32,6 +32,11 @@ impl Said {
         self
     }
 
+    /// Fails the test unless the program ended well and named all of `words` on stderr.
+    pub(crate) fn warns(self, words: &[&str]) {
+        self.fails(0, words);
+    }
+
     /// Fails the test unless the program ended with this code and named all of `words` on stderr.
     pub(crate) fn fails(self, code: i32, words: &[&str]) {
         assert_eq!(self.code, code, "{}", self.stderr);

@@ -9,6 +9,7 @@
 
 mod depth;
 mod embedded;
+mod environment;
 mod exr;
 mod height;
 mod jpeg;
@@ -26,6 +27,7 @@ mod tiff;
 pub use self::exr::encode_normals_exr;
 pub use depth::sample_depth;
 pub use embedded::{EmbeddedMaterials, decode_normals_with_materials};
+pub use environment::{EnvironmentImage, decode_environment, read_environment};
 pub use height::{HeightImage, decode_height};
 pub use materials::decode_materials;
 pub use normals::{NormalImage, decode_normals, repair_normals};

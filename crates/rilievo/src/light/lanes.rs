@@ -19,7 +19,7 @@ use crate::light::microfacet::{ALBEDO, DIELECTRIC, LEAST_COSINE, Microfacet};
 use crate::light::scalar::luminance;
 use crate::light::{Bands, Environment, Landscape, Light, Lighting, LightingModel, Material};
 use crate::normal::Space;
-use crate::simd::{Power, Vec3x16, cross, dot, exp2, recip, rsqrt, scale, splat, splat3};
+use crate::simd::{Power, Vec3x16, cross, dot, exp2, recip, rsqrt, scale, splat, splat3, three};
 
 /// Powers below this are taken for none, so that products with them are no denormal numbers.
 const LEAST_POWER: f32 = 1e-30;
@@ -134,12 +134,12 @@ impl<Sp: Space> Prepared<Sp> {
             }
             let cosine = lit.select(cosine, splat(simd, 0.0));
             // Colours are multiplied before the lanes are: a light far away has the same in all of them.
-            let strength = ray.strength.map_or(cosine, |s| cosine * s);
+            let strength = ray.times(cosine);
             add(&mut sum.diffuse, simd, ray.color * self.lambert, strength);
             brightness = strength.mul_add(splat(simd, luminance(ray.color)), brightness);
             for &(color, steps) in &self.steps {
                 let step = (cosine.mul_add(splat(simd, steps), splat(simd, 0.5))).floor() * (1.0 / steps);
-                add(&mut sum.diffuse, simd, ray.color * color, ray.strength.map_or(step, |s| step * s));
+                add(&mut sum.diffuse, simd, ray.color * color, ray.times(step));
             }
             if self.highlights.is_empty() && self.facets.is_empty() {
                 continue;
@@ -164,7 +164,7 @@ impl<Sp: Space> Prepared<Sp> {
         cosine: f32x16<S>,
         lit: mask32x16<S>,
     ) {
-        let between = [0, 1, 2].map(|i| ray.toward[i] + view[i]);
+        let between = three!(k => ray.toward[k] + view[k]);
         let squared = dot(between, between);
         let h = scale(between, rsqrt(simd, squared.max(splat(simd, LEAST_SQUARE))));
         let nh = dot(n, h);
@@ -181,14 +181,23 @@ impl<Sp: Space> Prepared<Sp> {
             let power = highlight.power.of(simd, base);
             let seen = lit & power.simd_gt(splat(simd, LEAST_POWER));
             let power = seen.select(power, splat(simd, 0.0));
-            add(&mut sum.specular, simd, ray.color * highlight.color, ray.strength.map_or(power, |s| power * s));
+            add(&mut sum.specular, simd, ray.color * highlight.color, ray.times(power));
         }
         // Light from straight behind the surface's eye has no h, and nothing shows.
         let seen = lit & squared.simd_gt(splat(simd, LEAST_SQUARE));
         for &(weight, facet) in &self.facets {
             let parts = facet_by_light(simd, &facet, n, h, view, cosine, nh);
-            let strength = ray.strength.map_or(splat(simd, weight), |s| s * weight);
-            sum.facet(simd, &facet, ray.color, parts.map(|p| seen.select(p * strength, splat(simd, 0.0))));
+            let strength = ray.times(splat(simd, weight));
+            let zero = splat(simd, 0.0);
+            // Masked before they are multiplied: without a half-vector there is no number.
+            let [a, b, c, d] = parts;
+            let parts = [
+                seen.select(a, zero) * strength,
+                seen.select(b, zero) * strength,
+                seen.select(c, zero) * strength,
+                seen.select(d, zero) * strength,
+            ];
+            sum.facet(simd, &facet, ray.color, parts);
         }
     }
 
@@ -220,7 +229,7 @@ impl<Sp: Space> Prepared<Sp> {
             let zero = splat(simd, 0.0);
             sum.facet(simd, &facet, self.ambient * weight, [1.0 - dielectric, zero, zero, zero]);
             let seen = self.reflected(simd, n, view, facet.roughness);
-            sum.facet_mirror(simd, &facet, seen, [dielectric, scale, bias].map(|p| p * weight));
+            sum.facet_mirror(simd, &facet, seen, [dielectric * weight, scale * weight, bias * weight]);
         }
     }
 
@@ -250,15 +259,27 @@ impl<S: Simd> Ray<S> {
             }
             Light::Point { position: place, color, reference_distance } => {
                 let place = place.to_array();
-                let to = [0, 1, 2].map(|i| splat(simd, place[i]) - position[i]);
+                let to = three!(k => splat(simd, place[k]) - position[k]);
                 let squared = dot(to, to).max(splat(simd, LEAST_SQUARE));
                 let toward = scale(to, rsqrt(simd, squared));
-                let strength = reference_distance.map(|reference| {
-                    let falloff = splat(simd, reference * reference) / squared;
-                    falloff.min(splat(simd, super::lights::BRIGHTEST))
-                });
+                let strength = match reference_distance {
+                    None => None,
+                    Some(reference) => {
+                        let falloff = splat(simd, reference * reference) / squared;
+                        Some(falloff.min(splat(simd, super::lights::BRIGHTEST)))
+                    }
+                };
                 Self { toward, color, strength }
             }
+        }
+    }
+
+    /// `amount` of light, as it falls off.
+    #[inline(always)]
+    fn times(&self, amount: f32x16<S>) -> f32x16<S> {
+        match self.strength {
+            Some(strength) => amount * strength,
+            None => amount,
         }
     }
 }
@@ -312,7 +333,7 @@ fn add_lanes<S: Simd>(sum: &mut Vec3x16<S>, simd: S, color: Vec3x16<S>, by: [f32
 /// `then` where the mask is set.
 #[inline(always)]
 fn choose<S: Simd>(simd: S, mask: mask32x16<S>, then: [f32; 3], otherwise: Vec3x16<S>) -> Vec3x16<S> {
-    [0, 1, 2].map(|i| mask.select(splat(simd, then[i]), otherwise[i]))
+    three!(k => mask.select(splat(simd, then[k]), otherwise[k]))
 }
 
 #[inline(always)]
@@ -343,14 +364,19 @@ fn facet_by_light<S: Simd>(
     let across = cross(n, h);
     let anh = nh.max(splat(simd, 0.0)) * a;
     let k = splat(simd, a) / anh.mul_add(anh, dot(across, across));
-    let root = |c: f32x16<S>| (c * c).mul_add(splat(simd, 1.0 - a * a), splat(simd, a * a)).sqrt();
-    let visibility = 0.5 * recip(nv.mul_add(root(nl), nl * root(nv)));
+    let visibility = 0.5 * recip(nv.mul_add(masking(simd, a, nl), nl * masking(simd, a, nv)));
     let glossy = k * k * visibility * nl;
     let t = 1.0 - vh;
     let t2 = t * t;
     let s = t2 * t2 * t;
     let dielectric = s.mul_add(splat(simd, 1.0 - DIELECTRIC), splat(simd, DIELECTRIC));
     [nl * (1.0 - dielectric), glossy * dielectric, glossy * (1.0 - s), glossy * s]
+}
+
+/// `√(α² + (1 − α²) c²)`
+#[inline(always)]
+fn masking<S: Simd>(simd: S, a: f32, c: f32x16<S>) -> f32x16<S> {
+    (c * c).mul_add(splat(simd, 1.0 - a * a), splat(simd, a * a)).sqrt()
 }
 
 /// [`super::microfacet::albedo`].
@@ -361,16 +387,19 @@ fn lane_albedo<S: Simd>(simd: S, roughness: f32, nv: f32x16<S>) -> [f32x16<S>; 2
     [a004.mul_add(splat(simd, -1.04), splat(simd, r[2])), a004.mul_add(splat(simd, 1.04), splat(simd, r[3]))]
 }
 
+/// `v` clamped to 0 … 1.
+#[inline(always)]
+fn unit<S: Simd>(simd: S, v: f32x16<S>) -> f32x16<S> {
+    v.max(splat(simd, 0.0)).min(splat(simd, 1.0))
+}
+
 /// `Landscape::at`.
 #[inline(always)]
 fn landscape_at<S: Simd>(simd: S, landscape: &Landscape, elevation: f32x16<S>) -> Vec3x16<S> {
-    let unit = |v: f32x16<S>| v.max(splat(simd, 0.0)).min(splat(simd, 1.0));
-    let (up, down) = (unit(elevation), unit(-elevation));
-    let share = unit(elevation.mul_add(splat(simd, 0.5 / Landscape::HAZE), splat(simd, 0.5)));
+    let (up, down) = (unit(simd, elevation), unit(simd, -elevation));
+    let share = unit(simd, elevation.mul_add(splat(simd, 0.5 / Landscape::HAZE), splat(simd, 0.5)));
     let [zenith, sky, ground, nadir] = [landscape.zenith, landscape.sky, landscape.ground, landscape.nadir].map(array);
-    [0, 1, 2].map(|i| {
-        let above = up.mul_add(splat(simd, zenith[i] - sky[i]), splat(simd, sky[i]));
-        let below = down.mul_add(splat(simd, nadir[i] - ground[i]), splat(simd, ground[i]));
-        share.mul_add(above - below, below)
-    })
+    let above = three!(k => up.mul_add(splat(simd, zenith[k] - sky[k]), splat(simd, sky[k])));
+    let below = three!(k => down.mul_add(splat(simd, nadir[k] - ground[k]), splat(simd, ground[k])));
+    three!(k => share.mul_add(above[k] - below[k], below[k]))
 }

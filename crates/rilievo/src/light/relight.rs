@@ -25,7 +25,7 @@ pub fn relight<S: Space>(
         return Err(Error::Length { what: "entries of the shade table", expected, actual });
     }
     let Some(base) = base else {
-        let colors: Vec<Rgba8> = table.to_srgb();
+        let colors: Vec<Rgba8> = table.to_srgb(blend);
         return Ok(map.base().map(|&i| colors[usize::from(i)]));
     };
     map.base().expect_same_size("the base colour", base)?;

@@ -10,7 +10,7 @@ use crate::indexed::NormalTable;
 use crate::light::scalar::luminance;
 use crate::light::{Blend, Lighting, Material, Prepared, Shade};
 use crate::normal::{Normal, Space};
-use crate::simd::{LANES, splat3};
+use crate::simd::{LANES, splat3, three};
 
 /// One [`Shade`] per entry of a [`NormalTable`].
 ///
@@ -55,13 +55,14 @@ impl ShadeTable {
     }
 
     /// The colours of a white surface, encoded: what a palette holds.
-    pub fn to_srgb(&self) -> Vec<Rgba8> {
-        self.colors().map(LinearRgb::to_srgb).collect()
+    pub fn to_srgb(&self, blend: Blend) -> Vec<Rgba8> {
+        self.colors(blend).map(LinearRgb::to_srgb).collect()
     }
 
-    /// Entries of the kind *colour*: what is shown as it is, in linear light (Tarini et al. 2000, § 5.1 and § 7.3).
-    pub fn colors(&self) -> impl ExactSizeIterator<Item = LinearRgb> {
-        self.entries.iter().map(|s| s.over(LinearRgb::WHITE, Blend::Material))
+    /// Entries of the kind *colour*: what is shown as it is, in linear light (Tarini et al. 2000, § 5.1 and § 7.3): the colours of
+    /// a white surface.
+    pub fn colors(&self, blend: Blend) -> impl ExactSizeIterator<Item = LinearRgb> {
+        self.entries.iter().map(move |s| s.over(LinearRgb::WHITE, blend))
     }
 
     /// Entries of the kind *intensity*: the brightness of the diffuse light, for the base colour to be multiplied by.
@@ -95,11 +96,20 @@ fn light_span<S: Simd, Sp: Space>(
     let nowhere = splat3(simd, [0.0; 3]);
     for (normals, shades) in normals.chunks(LANES).zip(shades.chunks_mut(LANES)) {
         let last = normals.len() - 1;
-        let n = [0, 1, 2].map(|i| f32x16::from_fn(simd, |lane| normals[lane.min(last)].vec()[i]));
+        let mut planes = [[0.0f32; LANES]; 3];
+        for lane in 0..LANES {
+            let n = normals[lane.min(last)].vec();
+            (planes[0][lane], planes[1][lane], planes[2][lane]) = (n.x, n.y, n.z);
+        }
+        let n = three!(k => f32x16::simd_from(simd, planes[k]));
         let lit = material.shade(simd, n, view, nowhere);
+        let mut out = [[0.0f32; LANES]; 6];
+        for (plane, lanes) in out.iter_mut().zip(lit) {
+            lanes.store_slice(plane);
+        }
         for (lane, shade) in shades.iter_mut().enumerate() {
-            let [r, g, b, sr, sg, sb] = lit.map(|v| v[lane]);
-            *shade = Shade { diffuse: LinearRgb::new(r, g, b), specular: LinearRgb::new(sr, sg, sb) };
+            let diffuse = LinearRgb::new(out[0][lane], out[1][lane], out[2][lane]);
+            *shade = Shade { diffuse, specular: LinearRgb::new(out[3][lane], out[4][lane], out[5][lane]) };
         }
     }
 }
@@ -123,7 +133,7 @@ mod tests {
         let shades = make(&materials).unwrap();
         assert!(shades.entries()[0].diffuse.g > 0.0 && shades.entries()[1].diffuse.g == 0.0);
         assert_eq!(shades.entries()[2].diffuse, LinearRgb::new(1.0, 0.0, 0.0));
-        assert_eq!(shades.colors().collect::<Vec<_>>()[2], LinearRgb::new(1.0, 0.0, 0.0));
+        assert_eq!(shades.colors(Blend::Material).collect::<Vec<_>>()[2], LinearRgb::new(1.0, 0.0, 0.0));
         assert!((shades.intensities().last().unwrap() - 0.2126).abs() < 1e-6);
         assert!(make(&materials[..2]).is_err());
     }
