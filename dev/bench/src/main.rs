@@ -10,6 +10,7 @@ mod height;
 mod inputs;
 mod machine;
 mod quantize;
+mod raster;
 mod relight;
 mod render;
 mod report;
@@ -29,7 +30,7 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 6] = [
+const GROUPS: [Group; 7] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",
@@ -43,6 +44,7 @@ const GROUPS: [Group; 6] = [
     },
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
+    Group { name: "raster", what: "frames against lavapipe, SwiftShader and euc", run: raster::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },
 ];
 
@@ -62,6 +64,9 @@ struct Arguments {
     /// Say what can be measured, and stop.
     #[arg(long)]
     list: bool,
+    /// Be a renderer for another process of this program, on stdin and stdout.
+    #[arg(long, hide = true, value_name = "ROLE")]
+    serve: Option<raster::Role>,
 }
 
 fn main() -> Result<()> {
@@ -76,6 +81,9 @@ fn main() -> Result<()> {
         .use_current_thread()
         .build_global()
         .context("cannot confine the work to one thread")?;
+    if let Some(role) = arguments.serve {
+        return raster::serve(role);
+    }
     let rounds = arguments.rounds.get();
     report.remark(&machine::describe(rounds));
     report.heading()?;
