@@ -58,7 +58,7 @@ fn pack_with(
 ) -> Result<()> {
     heights.expect_same_size("the map of packed normals", out)?;
     let (width, height) = heights.size();
-    if !(depth.abs() <= MAX_HEIGHT / width as f32) {
+    if !depth.is_finite() || depth.abs() > MAX_HEIGHT / width as f32 {
         return Err(Error::parameter("depth", depth, format_args!("at most {MAX_HEIGHT:e} texels of relief")));
     }
     let fit = PlaneFit::of(heights, depth / WHITE, filter, edges);
