@@ -35,6 +35,23 @@ pub(crate) fn duel_with_program<A, B>(
     duel_by(rounds, ours, peer, children_seconds)
 }
 
+/// Any number of sides in turns, each of which takes its own time: `seconds(side)`. Medians, after a warm-up.
+///
+/// Who begins moves on from round to round.
+pub(crate) fn turns(rounds: usize, sides: usize, mut seconds: impl FnMut(usize) -> Result<f64>) -> Result<Vec<f64>> {
+    for side in 0..sides {
+        seconds(side)?;
+    }
+    let mut times = vec![Vec::with_capacity(rounds); sides];
+    for round in 0..rounds {
+        for turn in 0..sides {
+            let side = (turn + round) % sides;
+            times[side].push(seconds(side)?);
+        }
+    }
+    Ok(times.into_iter().map(median).collect())
+}
+
 fn duel_by<A, B>(
     rounds: usize,
     mut ours: impl FnMut() -> Result<A>,
@@ -141,6 +158,19 @@ mod tests {
                 + "op"
         );
         assert!(found.ours > SHORTEST_SAMPLE && found.peer > SHORTEST_SAMPLE);
+    }
+
+    #[test]
+    fn many_sides_take_turns_and_each_begins() {
+        let mut log = Vec::new();
+        let times = turns(3, 3, |side| {
+            log.push(side);
+            Ok(if log.len() <= 3 { 99.0 } else { log.len() as f64 })
+        });
+        assert_eq!(log, [0, 1, 2, 0, 1, 2, 1, 2, 0, 2, 0, 1]);
+        // Called as number 4, 9 and 11; 5, 7 and 12; 6, 8 and 10.
+        assert_eq!(times.unwrap(), [9.0, 7.0, 8.0]);
+        assert!(turns(1, 2, |side| if side == 1 { anyhow::bail!("no") } else { Ok(1.0) }).is_err());
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod inputs;
 mod light;
 mod machine;
 mod quantize;
+mod raster;
 mod relight;
 mod render;
 mod report;
@@ -46,6 +47,7 @@ const GROUPS: [Group; 7] = [
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "light", what: "a table lit sixteen normals at a time against one at a time", run: light::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
+    Group { name: "raster", what: "frames against lavapipe, SwiftShader and euc", run: raster::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },
     Group {
         name: "vectors",
@@ -70,6 +72,9 @@ struct Arguments {
     /// Say what can be measured, and stop.
     #[arg(long)]
     list: bool,
+    /// Be a renderer for another process of this program, on stdin and stdout.
+    #[arg(long, hide = true, value_name = "ROLE")]
+    serve: Option<raster::Role>,
 }
 
 fn main() -> Result<()> {
@@ -84,6 +89,9 @@ fn main() -> Result<()> {
         .use_current_thread()
         .build_global()
         .context("cannot confine the work to one thread")?;
+    if let Some(role) = arguments.serve {
+        return raster::serve(role);
+    }
     let rounds = arguments.rounds.get();
     report.remark(&machine::describe(rounds));
     report.heading()?;

@@ -2,6 +2,7 @@
 
 use crate::run::{Run, has_cargo_command, is_ci, on_path};
 use anyhow::{Result, bail};
+use std::path::Path;
 
 /// What becomes of the work without a tool.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -17,7 +18,7 @@ enum Without {
 /// One external tool.
 struct Tool {
     name: &'static str,
-    /// Any one of these programs will do. A cargo subcommand is spelled `cargo NAME`.
+    /// Any one of these programs will do. A cargo subcommand is spelled `cargo NAME`, a file by its path from the root.
     programs: &'static [&'static str],
     purpose: &'static str,
     without: Without,
@@ -91,6 +92,27 @@ const TOOLS: &[Tool] = &[
         debian: Some("netpbm"),
         hint: "install netpbm",
     },
+    // The peers of `cargo xtask bench raster`: nothing but that looks for them, so nobody gets them unasked.
+    Tool {
+        name: "lavapipe",
+        programs: &[
+            "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
+            "/usr/share/vulkan/icd.d/lvp_icd.aarch64.json",
+            "/usr/share/vulkan/icd.d/lvp_icd.json",
+        ],
+        purpose: "a software GPU that the bench holds the renderer against",
+        without: Without::Fine,
+        debian: None,
+        hint: "on Debian or Ubuntu: apt-get install --no-install-recommends mesa-vulkan-drivers libvulkan1",
+    },
+    Tool {
+        name: "SwiftShader",
+        programs: &["/usr/lib/chromium/vk_swiftshader_icd.json"],
+        purpose: "another software GPU that the bench holds the renderer against",
+        without: Without::Fine,
+        debian: None,
+        hint: "on Debian: apt-get install --no-install-recommends chromium libvulkan1",
+    },
     Tool {
         name: "cargo-nextest",
         programs: &["cargo nextest"],
@@ -109,6 +131,7 @@ impl Tool {
         }
         self.programs.iter().any(|program| match program.strip_prefix("cargo ") {
             Some(command) => has_cargo_command(command),
+            None if program.starts_with('/') => Path::new(program).is_file(),
             None => on_path(program),
         })
     }
@@ -216,6 +239,24 @@ mod tests {
     #[test]
     fn missing_convenience_never_stops() {
         assert!(fatal(&[tool("cargo-nextest")], true).is_empty());
+    }
+
+    #[test]
+    fn drivers_are_nobody_s_duty_and_not_installed_unasked() {
+        let drivers = [tool("lavapipe"), tool("SwiftShader")];
+        assert!(fatal(&drivers, true).is_empty());
+        assert!(debian_packages(&drivers).is_empty());
+    }
+
+    #[test]
+    fn file_is_looked_for_where_it_should_lie() {
+        let there = |file: &'static str| {
+            let programs: &'static [&'static str] = Box::leak(Box::new([file]));
+            Tool { programs, without: Without::Fine, ..*tool("lavapipe") }.is_there()
+        };
+        assert!(!there("/no/such/file"));
+        let me: &'static str = Box::leak(std::env::current_exe().unwrap().to_str().unwrap().into());
+        assert!(!me.starts_with('/') || there(me));
     }
 
     #[test]

@@ -4,7 +4,11 @@
 //! surfaces", §4.1: the plane of least squares through a texel and its q neighbours. Every filter here is such a plane,
 //! weighted: that is what Sobel and Scharr are too, and it says what to do where neighbours are missing.
 
+mod lanes;
+mod packed;
 mod plane;
+
+pub use packed::pack_normals;
 
 use plane::PlaneFit;
 

@@ -58,12 +58,12 @@ impl Along {
     }
 }
 
-/// Slopes of a height map, row by row.
-pub(super) struct PlaneFit<'a> {
-    heights: &'a Grid<f32>,
+/// Slopes of a map of heights, row by row. Heights are computed with as f32.
+pub(super) struct PlaneFit<'a, T = f32> {
+    heights: &'a Grid<T>,
     filter: Filter,
     edges: Edges,
-    /// From relative height per texel to slope.
+    /// From height per texel to slope.
     scale: f32,
 }
 
@@ -72,18 +72,42 @@ type Line = [f32; 3];
 
 impl<'a> PlaneFit<'a> {
     pub(super) fn new(map: &'a HeightMap, filter: Filter, edges: Edges) -> Self {
-        let scale = map.depth() * map.heights().width() as f32;
-        Self { heights: map.heights(), filter, edges, scale }
+        Self::of(map.heights(), map.depth(), filter, edges)
+    }
+}
+
+impl<'a, T: Copy + Into<f32>> PlaneFit<'a, T> {
+    /// `depth` is how far height 1 lies above height 0, as a fraction of the map's width.
+    pub(super) fn of(heights: &'a Grid<T>, depth: f32, filter: Filter, edges: Edges) -> Self {
+        Self { heights, filter, edges, scale: depth * heights.width() as f32 }
+    }
+
+    /// From height per texel to slope.
+    pub(super) fn scale(&self) -> f32 {
+        self.scale
     }
 
     /// Calls `put(x, [dh/dx, dh/dy up])` for each texel of row `y`, in an unspecified order.
     pub(super) fn row(&self, y: usize, put: impl FnMut(usize, [f32; 2])) {
         // The branch stays outside the loop over the row, so that the loop is free of any.
-        if self.filter == Filter::Plane4 { self.row_with(y, cross, put) } else { self.row_with(y, product, put) }
+        if self.filter == Filter::Plane4 {
+            self.row_with::<true>(y, cross, put);
+        } else {
+            self.row_with::<true>(y, product, put);
+        }
+    }
+
+    /// As [`Self::row`], for the first and the last texel only.
+    pub(super) fn ends(&self, y: usize, put: impl FnMut(usize, [f32; 2])) {
+        if self.filter == Filter::Plane4 {
+            self.row_with::<false>(y, cross, put);
+        } else {
+            self.row_with::<false>(y, product, put);
+        }
     }
 
     #[inline(always)]
-    fn row_with(
+    fn row_with<const INTERIOR: bool>(
         &self,
         y: usize,
         fit: impl Fn([Line; 3], &Along, &Along) -> [f32; 2],
@@ -98,15 +122,18 @@ impl<'a> PlaneFit<'a> {
             let [right, up] = fit(lines, horizontal, &vertical);
             put(x, [right * self.scale, up * self.scale]);
         };
-        // Away from the ends of the row all texels have the same neighbours.
-        let interior = Along::new(1, 3, self.edges, self.filter);
-        let windows = above.windows(3).zip(here.windows(3)).zip(below.windows(3));
-        for (i, ((a, h), b)) in windows.enumerate() {
-            texel(i + 1, [[a[0], a[1], a[2]], [h[0], h[1], h[2]], [b[0], b[1], b[2]]], &interior);
+        if INTERIOR {
+            // Away from the ends of the row all texels have the same neighbours.
+            let interior = Along::new(1, 3, self.edges, self.filter);
+            let windows = above.windows(3).zip(here.windows(3)).zip(below.windows(3));
+            for (i, ((a, h), b)) in windows.enumerate() {
+                let line = |w: &[T]| [w[0].into(), w[1].into(), w[2].into()];
+                texel(i + 1, [line(a), line(h), line(b)], &interior);
+            }
         }
         for x in [0, last] {
             let horizontal = Along::new(x, width, self.edges, self.filter);
-            let line = |row: &[f32]| [row[horizontal.before], row[x], row[horizontal.after]];
+            let line = |row: &[T]| [row[horizontal.before].into(), row[x].into(), row[horizontal.after].into()];
             texel(x, [line(above), line(here), line(below)], &horizontal);
         }
     }
