@@ -66,13 +66,13 @@ impl Projection {
     }
 
     /// Clip coordinates of a point (x, y within ±w on the picture, z from 0 to w).
-    pub(super) fn to_clip(&self, p: glam::Vec3) -> Vec4 {
+    pub(super) fn clip_position(&self, p: glam::Vec3) -> Vec4 {
         let c = &self.columns;
         Vec4::from_array([0, 1, 2, 3].map(|i| c[0][i] * p.x + c[1][i] * p.y + c[2][i] * p.z + c[3][i]))
     }
 
     /// A clip-space point inside the guard band and in front of the near plane, snapped to the sub-pixel grid.
-    pub(super) fn to_screen(&self, clip: Vec4) -> ScreenVertex {
+    pub(super) fn snap(&self, clip: Vec4) -> ScreenVertex {
         let x = (clip.x / clip.w * 0.5 + 0.5) * self.size[0];
         let y = (0.5 - clip.y / clip.w * 0.5) * self.size[1];
         let snap = |v: f32| (v * ONE).round_ties_even() as i32;
@@ -88,7 +88,7 @@ impl Projection {
         distances.iter().enumerate().fold(0, |bits, (i, &d)| bits | u8::from(!(d >= 0.0)) << i)
     }
 
-    /// [`Self::to_clip`] and [`Self::to_screen`] of sixteen points, given as x, y and z, and for each the planes of the clip
+    /// [`Self::clip_position`] and [`Self::snap`] of sixteen points, given as x, y and z, and for each the planes of the clip
     /// volume that it lies outside of, a bit for each: near, far, right, left, top, bottom.
     ///
     /// Coordinates of points that are outside are garbage.
@@ -156,10 +156,10 @@ mod tests {
                         projection.project(simd, [lane(0), lane(1), lane(2)])
                     });
                     for (i, p) in points.into_iter().enumerate() {
-                        let clip = projection.to_clip(p);
+                        let clip = projection.clip_position(p);
                         assert_eq!(outside[i], projection.outside(clip), "{level:?}");
                         if outside[i] == 0 {
-                            assert_eq!(vertices[i], projection.to_screen(clip), "{level:?}");
+                            assert_eq!(vertices[i], projection.snap(clip), "{level:?}");
                         }
                     }
                 }
@@ -170,8 +170,8 @@ mod tests {
     #[test]
     fn no_number_is_outside() {
         let projection = projection((64, 64));
-        assert_ne!(projection.outside(projection.to_clip(Vec3::new(f32::NAN, 0.0, 0.0))), 0);
-        assert_eq!(projection.outside(projection.to_clip(Vec3::ZERO)), 0);
+        assert_ne!(projection.outside(projection.clip_position(Vec3::new(f32::NAN, 0.0, 0.0))), 0);
+        assert_eq!(projection.outside(projection.clip_position(Vec3::ZERO)), 0);
     }
 
     /// Values of −1 … 1. (The testkit is another copy of this crate to unit tests.)

@@ -19,7 +19,7 @@ pub(crate) fn exp2<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let p = f.mul_add(p, f32x16::splat(simd, 9.618_489e-3));
     let p = f.mul_add(p, f32x16::splat(simd, 5.550_328_8e-2));
     let p = f.mul_add(p, f32x16::splat(simd, 0.240_226_47));
-    let p = f.mul_add(p, f32x16::splat(simd, 0.693_147_2));
+    let p = f.mul_add(p, f32x16::splat(simd, std::f32::consts::LN_2));
     let p = f.mul_add(p, f32x16::splat(simd, 1.0));
     let exponent: i32x16<S> = (whole.to_int::<i32x16<S>>() << FRACTION_BITS) + ONE_BITS;
     p * exponent.bitcast::<f32x16<S>>()
@@ -38,7 +38,7 @@ pub(crate) fn log2<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let s2 = s * s;
     let p = s2.mul_add(f32x16::splat(simd, 0.431_754_66), f32x16::splat(simd, 0.576_713_6));
     let p = s2.mul_add(p, f32x16::splat(simd, 0.961_798_85));
-    let p = s2.mul_add(p, f32x16::splat(simd, 2.885_390_1));
+    let p = s2.mul_add(p, f32x16::splat(simd, 2.885_39));
     s.mul_add(p, whole.to_float::<f32x16<S>>())
 }
 
@@ -75,15 +75,15 @@ impl Power {
         // The same for all lanes, so the branches are foreseen.
         let mut square = base;
         while left & 1 == 0 {
-            square = square * square;
+            square *= square;
             left >>= 1;
         }
         let mut power = square;
         left >>= 1;
         while left > 0 {
-            square = square * square;
+            square *= square;
             if left & 1 == 1 {
-                power = power * square;
+                power *= square;
             }
             left >>= 1;
         }

@@ -97,9 +97,9 @@ pub(in crate::raster) fn set_up(
     let mesh = object.mesh;
     let projection = Projection::new(&scene.camera, &object.pose, (width, height));
     // Per vertex, not per corner: triangles that share a vertex must see it at the same bits.
-    let positions: Vec<DVec4> = mesh.positions().iter().map(|&p| projection.to_clip(p).as_dvec4()).collect();
+    let positions: Vec<DVec4> = mesh.positions().iter().map(|&p| projection.clip_position(p).as_dvec4()).collect();
     let to_screen = |p: DVec4| {
-        let vertex = projection.to_screen(p.as_vec4());
+        let vertex = projection.snap(p.as_vec4());
         DVec2::new(f64::from(vertex.x), f64::from(vertex.y)) / f64::from(1 << SUBPIXEL_BITS)
     };
     let mut out = Vec::new();

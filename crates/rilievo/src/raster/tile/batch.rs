@@ -127,7 +127,7 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
                 let before = tile.depth(simd, block);
                 let mut visible = z.simd_lt(before);
                 if all >> bx & 1 == 0 {
-                    visible = visible & edges.inside(simd, &over_block, bx, by);
+                    visible &= edges.inside(simd, &over_block, bx, by);
                 }
                 let bits = visible.to_bitmask();
                 if bits == 0 {

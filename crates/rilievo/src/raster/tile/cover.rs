@@ -102,8 +102,8 @@ impl Edges {
             // The largest and the smallest value in a block are at corners that only the direction of the edge decides.
             let most = (size - 1) * (self.a[i].max(0) + self.b[i].max(0));
             let least = (size - 1) * (self.a[i].min(0) + self.b[i].min(0));
-            some = some | (values + most);
-            all = all | (values + least);
+            some |= values + most;
+            all |= values + least;
         }
         let zero = i32x16::splat(simd, 0);
         (some.simd_ge(zero).to_bitmask() as u32, all.simd_ge(zero).to_bitmask() as u32)

@@ -226,7 +226,10 @@ impl Front {
         attributes: &impl Attributes<N>,
     ) {
         let Chunk { triangles, cut, cut_attributes, placed, skipped, .. } = chunk;
-        (triangles.clear(), cut.clear(), cut_attributes.clear(), placed.clear());
+        triangles.clear();
+        cut.clear();
+        cut_attributes.clear();
+        placed.clear();
         *skipped = Skipped::default();
         let mut place = |corners: [u32; 3], screen: [ScreenVertex; 3], source: usize, skipped: &mut Skipped| {
             let area2 = area2(&screen);
@@ -260,7 +263,7 @@ impl Front {
                 place(corners, corners.map(|v| self.vertices[v as usize]), source, skipped);
                 continue;
             }
-            let clips: [DVec4; 3] = corners.map(|v| projection.to_clip(mesh.positions()[v as usize]).as_dvec4());
+            let clips: [DVec4; 3] = corners.map(|v| projection.clip_position(mesh.positions()[v as usize]).as_dvec4());
             let nowhere = outside[0] & outside[1] & outside[2] != 0 || clips.iter().any(|c| c.is_nan());
             let polygon = if nowhere { Vec::new() } else { clip(clips, projection.guard_band()) };
             if polygon.is_empty() {
@@ -270,7 +273,7 @@ impl Front {
             let first = cut.len() as u32;
             let vertices = corners.map(|v| Vertex::of(mesh, v));
             for corner in &polygon {
-                let screen = projection.to_screen(corner.position.as_vec4());
+                let screen = projection.snap(corner.position.as_vec4());
                 let weights = corner.weights.map(|w| w as f32);
                 cut.push(CutCorner { screen, weights });
                 cut_attributes.extend(attributes(&Vertex::mixed(&vertices, weights), screen.inv_w));
