@@ -4,10 +4,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16, mask32x16, u32x16};
 
 use super::buffer::{BLOCK, BLOCKS, Tile};
-use super::cover::{Bounds, COUNT, Edges, columns, pixels};
+use super::cover::{COUNT, columns, pixels};
 use super::front::{Chunk, Front, Triangle, Vertex};
+use super::group::Group;
 use super::planes::{Plane, Sides};
-use crate::fill::SUBPIXEL_BITS;
 use crate::simd::three;
 
 /// A way to shade, over `N` attributes of each vertex.
@@ -80,42 +80,51 @@ impl<Sh: Shader<N>, const N: usize> Batch for Shaded<'_, Sh, N> {
 impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
     #[inline(always)]
     fn draw_lanes<S: Simd>(&self, simd: S, tile: &mut Tile, number: usize, origin: [i32; 2]) {
+        let mut group = Group::default();
         for chunk in &self.front.chunks {
-            for &triangle in chunk.of_tile(number) {
-                self.draw_triangle(simd, chunk, &chunk.triangles[triangle as usize], tile, origin);
+            for numbers in chunk.of_tile(number).chunks(16) {
+                for (lane, &triangle) in numbers.iter().enumerate() {
+                    let corners = &chunk.triangles[triangle as usize].corners;
+                    group.set(lane, &three!(i => match Triangle::cut(corners[i]) {
+                        None => self.front.vertices[corners[i] as usize],
+                        Some(cut) => chunk.cut[cut].screen,
+                    }));
+                }
+                group.set_up(simd, numbers.len(), origin);
+                for (lane, &triangle) in numbers.iter().enumerate() {
+                    self.draw_triangle(simd, chunk, &chunk.triangles[triangle as usize], &group, lane, tile);
+                }
             }
         }
     }
 
     #[inline(always)]
-    fn draw_triangle<S: Simd>(&self, simd: S, chunk: &Chunk, triangle: &Triangle, tile: &mut Tile, origin: [i32; 2]) {
-        let corners = triangle.corners.map(|corner| match Triangle::cut(corner) {
-            None => self.front.vertices[corner as usize],
-            Some(cut) => chunk.cut[cut].screen,
-        });
-        // Of the picture it is already known that something is on it.
-        let Some(bounds) = Bounds::of(&corners, [i32::MAX; 2]) else { return };
-        let bounds = bounds.in_tile(origin);
-        let (edges, sides) = (Edges::new(&corners, origin), Sides::new(&corners));
-        let depth = sides.plane(corners.map(|c| c.z));
+    fn draw_triangle<S: Simd>(
+        &self,
+        simd: S,
+        chunk: &Chunk,
+        triangle: &Triangle,
+        group: &Group,
+        lane: usize,
+        tile: &mut Tile,
+    ) {
+        let (edges, depth, start) = (group.edges(lane), group.depth(lane), group.start(lane));
+        let [x0, x1, y0, y1] = group.bounds(lane);
         let over_block = edges.over_block(simd);
         let [lane_x, lane_y] = pixels(simd);
-        // From the first corner to the centre of the tile's first pixel.
-        let to_corner = [origin[0] - (corners[0].x >> SUBPIXEL_BITS), origin[1] - (corners[0].y >> SUBPIXEL_BITS)];
-        let fraction = |v: i32| (v & ((1 << SUBPIXEL_BITS) - 1)) as f32 / (1 << SUBPIXEL_BITS) as f32;
-        let start = [
-            to_corner[0] as f32 + (0.5 - fraction(corners[0].x)),
-            to_corner[1] as f32 + (0.5 - fraction(corners[0].y)),
-        ];
-        let nearest_corner = BlockReach::new(&depth);
-        let in_columns = columns(bounds.x);
-        let wide = bounds.x[1] / BLOCK as i32 > bounds.x[0] / BLOCK as i32 + 1;
+        let reach = BlockReach::new(&depth);
+        let in_columns = columns([x0, x1]);
+        // Few blocks are looked at one by one.
+        let wide = x1 / BLOCK as i32 > x0 / BLOCK as i32 + 1;
         let mut set_up = None;
-        for by in bounds.y[0] / BLOCK as i32..=bounds.y[1] / BLOCK as i32 {
-            let (some, all) = if wide { edges.row(simd, by) } else { (u32::MAX, 0) };
+        for by in y0 / BLOCK as i32..=y1 / BLOCK as i32 {
             let y0 = start[1] + (by * BLOCK as i32) as f32;
-            let in_front = nearest_corner.before(simd, &depth, start[0], y0, tile.farthest(simd, by as usize));
-            let mut left = some & in_columns & in_front;
+            let (mut left, mut all) = (in_columns, 0);
+            if wide {
+                let (some, whole) = edges.row(simd, by);
+                left &= some & reach.before(simd, &depth, start[0], y0, tile.farthest(simd, by as usize));
+                all = whole;
+            }
             let y = lane_y + y0;
             while left != 0 {
                 let bx = left.trailing_zeros() as i32;
@@ -133,11 +142,11 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
                 if bits == 0 {
                     continue;
                 }
-                let farthest = (bits == 0xffff).then(|| nearest_corner.farthest(&depth, x0, y0));
+                let farthest = (bits == 0xffff).then(|| reach.farthest(&depth, x0, y0));
                 tile.set_depth(block, visible.select(z, before), farthest);
                 if set_up.is_none() {
                     let attributes = three!(i => self.attributes_of(chunk, triangle.corners[i]));
-                    set_up = Some(self.shader.set_up(&Seen { triangle, attributes, sides, chunk }));
+                    set_up = Some(self.shader.set_up(&Seen { triangle, attributes, sides: group.sides(lane), chunk }));
                 }
                 let Some(set_up) = &set_up else { continue };
                 let color = self.shader.shade(simd, set_up, &Block { x, y, visible });

@@ -1,7 +1,7 @@
 //! The pixels of one tile while it is drawn.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16, u32x16};
+use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 
 use crate::color::Rgba8;
 
@@ -36,10 +36,20 @@ impl Tile {
     }
 
     /// Makes it empty again.
-    pub(super) fn clear(&mut self, background: u32) {
-        self.depth.fill([NOTHING; 16]);
-        self.color.fill([background; 16]);
-        self.farthest.fill([NOTHING; BLOCKS]);
+    pub(super) fn clear(&mut self, level: Level, background: u32) {
+        dispatch!(level, simd => self.clear_lanes(simd, background));
+    }
+
+    #[inline(always)]
+    fn clear_lanes<S: Simd>(&mut self, simd: S, background: u32) {
+        let (nothing, background) = (f32x16::splat(simd, NOTHING), u32x16::splat(simd, background));
+        for (depth, color) in self.depth.iter_mut().zip(&mut self.color) {
+            nothing.store_array(depth);
+            background.store_array(color);
+        }
+        for row in &mut self.farthest {
+            nothing.store_array(row);
+        }
     }
 
     /// Depths of a block.
@@ -78,29 +88,44 @@ impl Tile {
 
     /// Copies the tile into rows of `stride` pixels, the first of which begin at its corner; returns how many pixels
     /// something was drawn on.
-    pub(super) fn copy_to(&self, rows: &mut [Rgba8], stride: usize, x: usize) -> u64 {
+    pub(super) fn copy_to(&self, level: Level, rows: &mut [Rgba8], stride: usize, x: usize) -> u64 {
+        dispatch!(level, simd => self.copy_lanes(simd, rows, stride, x))
+    }
+
+    #[inline(always)]
+    fn copy_lanes<S: Simd>(&self, simd: S, rows: &mut [Rgba8], stride: usize, x: usize) -> u64 {
         let width = TILE.min(stride - x);
-        let mut covered = 0;
-        for (y, row) in rows.chunks_mut(stride).enumerate().take(TILE) {
+        let height = TILE.min(rows.len() / stride);
+        for (y, row) in rows.chunks_exact_mut(stride).enumerate().take(TILE) {
             let row: &mut [u32] = bytemuck::cast_slice_mut(&mut row[x..x + width]);
-            let blocks = y / BLOCK * BLOCKS..(y / BLOCK + 1) * BLOCKS;
+            let blocks = &self.color[y / BLOCK * BLOCKS..][..BLOCKS];
             let line = y % BLOCK * BLOCK;
             // Four pixels at a time: a copy of constant length is an instruction, any other a call.
             let (whole, rest) = row.as_chunks_mut::<BLOCK>();
             let split = whole.len();
-            for (pixels, block) in whole.iter_mut().zip(&self.color[blocks.clone()]) {
-                *pixels = std::array::from_fn(|i| block[line + i]);
+            for (pixels, block) in whole.iter_mut().zip(blocks) {
+                *pixels = [block[line], block[line + 1], block[line + 2], block[line + 3]];
             }
-            if let Some(block) = self.color[blocks.clone()].get(split) {
+            if let Some(block) = blocks.get(split) {
                 rest.copy_from_slice(&block[line..line + rest.len()]);
             }
-            for (i, block) in self.depth[blocks].iter().enumerate() {
-                let inside = width.saturating_sub(i * BLOCK).min(BLOCK);
-                covered += block[line..line + inside].iter().map(|&d| u64::from(d != NOTHING)).sum::<u64>();
-            }
+        }
+        let mut covered = 0;
+        for (i, depth) in self.depth.iter().enumerate() {
+            let drawn = f32x16::load_array_ref(simd, depth).simd_lt(f32x16::splat(simd, NOTHING)).to_bitmask();
+            // At the right and lower border of the picture, blocks reach beyond it.
+            let (columns, lines) = (width.saturating_sub(i % BLOCKS * BLOCK), height.saturating_sub(i / BLOCKS * BLOCK));
+            covered += u64::from((drawn & pixels_within(columns, lines)).count_ones());
         }
         covered
     }
+}
+
+/// The pixels of a block within its first `columns` and `lines`, a bit for each.
+fn pixels_within(columns: usize, lines: usize) -> u64 {
+    let (columns, lines) = (columns.min(BLOCK), lines.min(BLOCK));
+    let row = (1 << columns) - 1;
+    (0x1111 * row) & ((1 << (lines * BLOCK)) - 1)
 }
 
 /// An opaque pixel, as it lies in memory.

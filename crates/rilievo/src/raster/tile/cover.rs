@@ -7,7 +7,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x16, mask32x16};
 
-use super::buffer::{BLOCK, BLOCKS, TILE};
+use super::buffer::{BLOCK, BLOCKS};
 use crate::fill::SUBPIXEL_BITS;
 use crate::raster::project::ScreenVertex;
 use crate::simd::three;
@@ -21,12 +21,12 @@ const FAR: i64 = 1 << 30;
 /// The edges of a triangle over a tile: inside where all of `a` x + `b` y + `c` ≥ 0, x and y pixels from the tile's corner.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edges {
-    a: [i32; 3],
-    b: [i32; 3],
-    c: [i32; 3],
+    pub(super) a: [i32; 3],
+    pub(super) b: [i32; 3],
+    pub(super) c: [i32; 3],
 }
 
-/// The pixels of a tile that a triangle may touch, as a rectangle; the last ones are included.
+/// The pixels that a triangle may touch, as a rectangle; the last ones are included.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     pub(super) x: [i32; 2],
@@ -45,12 +45,6 @@ impl Bounds {
         };
         let (x, y) = (axis(v.map(|v| v.x), size[0]), axis(v.map(|v| v.y), size[1]));
         (x[0] <= x[1] && y[0] <= y[1]).then_some(Self { x, y })
-    }
-
-    /// The part in the tile whose first pixel is `origin`, relative to it.
-    pub(super) fn in_tile(&self, origin: [i32; 2]) -> Self {
-        let axis = |range: [i32; 2], first: i32| [(range[0] - first).max(0), (range[1] - first).min(TILE as i32 - 1)];
-        Self { x: axis(self.x, origin[0]), y: axis(self.y, origin[1]) }
     }
 }
 

@@ -15,6 +15,7 @@ mod batch;
 mod buffer;
 mod cover;
 mod front;
+mod group;
 mod maps;
 mod planes;
 mod shade;
@@ -137,11 +138,11 @@ fn draw_tiles(batches: &[Box<dyn Batch + '_>], level: Level, background: u32, pi
                 }
                 continue;
             }
-            tile.clear(background);
+            tile.clear(level, background);
             for batch in touching {
                 batch.draw(level, &mut tile, number, origin.map(|o| o as i32));
             }
-            sum += tile.copy_to(pixels, width, origin[0]);
+            sum += tile.copy_to(level, pixels, width, origin[0]);
         }
         covered.fetch_add(sum, std::sync::atomic::Ordering::Relaxed);
     });

@@ -7,28 +7,17 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};
 
-use crate::fill::SUBPIXEL_BITS;
-use crate::raster::project::ScreenVertex;
 use crate::simd::{splat, three};
 
 /// Two sides of a screen triangle from its first corner, and one over twice its area; pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides {
-    first: [f32; 2],
-    second: [f32; 2],
-    inv_area2: f32,
+    pub(super) first: [f32; 2],
+    pub(super) second: [f32; 2],
+    pub(super) inv_area2: f32,
 }
 
 impl Sides {
-    /// Of a triangle that has an area.
-    pub(super) fn new(corners: &[ScreenVertex; 3]) -> Self {
-        let scale = 1.0 / (1 << SUBPIXEL_BITS) as f32;
-        let side =
-            |to: usize| [(corners[to].x - corners[0].x) as f32 * scale, (corners[to].y - corners[0].y) as f32 * scale];
-        let (first, second) = (side(1), side(2));
-        Self { first, second, inv_area2: 1.0 / (first[0] * second[1] - second[0] * first[1]) }
-    }
-
     /// The plane through three values.
     #[inline(always)]
     pub(super) fn plane(&self, [a, b, c]: [f32; 3]) -> Plane {
