@@ -49,7 +49,7 @@ enum Command {
     Normal(commands::normal::Args),
     Quantize(commands::quantize::Args),
     Relight(commands::relight::Args),
-    Render(commands::render::Args),
+    Render(Box<commands::render::Args>),
     Compare(commands::compare::Args),
     Demo(commands::demo::Args),
     Completions(commands::completions::Args),

@@ -15,11 +15,12 @@ use glam::{Mat3, Vec3};
 
 use crate::color::LinearRgb;
 use crate::light::lane_environment::{mirrored, reflected};
-use crate::light::microfacet::{ALBEDO, DIELECTRIC, LEAST_COSINE, Microfacet};
+use crate::light::lane_facet::{albedo, facet_by_light};
+use crate::light::microfacet::{DIELECTRIC, LEAST_COSINE, Microfacet};
 use crate::light::scalar::luminance;
 use crate::light::{Bands, Environment, Landscape, Light, Lighting, LightingModel, Material};
 use crate::normal::Space;
-use crate::simd::{Power, Vec3x16, cross, dot, exp2, recip, rsqrt, scale, splat, splat3, three};
+use crate::simd::{Power, Vec3x16, dot, rsqrt, scale, splat, splat3, three};
 
 /// Powers below this are taken for none, so that products with them are no denormal numbers.
 const LEAST_POWER: f32 = 1e-30;
@@ -224,7 +225,7 @@ impl<Sp: Space> Prepared<Sp> {
         }
         for &(weight, facet) in &self.facets {
             let nv = dot(n, view).max(splat(simd, LEAST_COSINE));
-            let [scale, bias] = lane_albedo(simd, facet.roughness, nv);
+            let [scale, bias] = albedo(simd, facet.roughness, nv);
             let dielectric = scale.mul_add(splat(simd, DIELECTRIC), bias);
             let zero = splat(simd, 0.0);
             sum.facet(simd, &facet, self.ambient * weight, [1.0 - dielectric, zero, zero, zero]);
@@ -345,46 +346,6 @@ fn array(c: LinearRgb) -> [f32; 3] {
 #[inline(always)]
 fn mirrored_cosine<S: Simd>(n: Vec3x16<S>, view: Vec3x16<S>, l: Vec3x16<S>, nl: f32x16<S>) -> f32x16<S> {
     (dot(n, view) * 2.0).mul_sub(nl, dot(view, l))
-}
-
-/// [`Microfacet::by_light`]: diffuse, dielectric, tinted and white parts.
-#[inline(always)]
-fn facet_by_light<S: Simd>(
-    simd: S,
-    facet: &Microfacet,
-    n: Vec3x16<S>,
-    h: Vec3x16<S>,
-    view: Vec3x16<S>,
-    nl: f32x16<S>,
-    nh: f32x16<S>,
-) -> [f32x16<S>; 4] {
-    let a = facet.alpha;
-    let nv = dot(n, view).max(splat(simd, LEAST_COSINE));
-    let vh = dot(view, h).max(splat(simd, 0.0)).min(splat(simd, 1.0));
-    let across = cross(n, h);
-    let anh = nh.max(splat(simd, 0.0)) * a;
-    let k = splat(simd, a) / anh.mul_add(anh, dot(across, across));
-    let visibility = 0.5 * recip(nv.mul_add(masking(simd, a, nl), nl * masking(simd, a, nv)));
-    let glossy = k * k * visibility * nl;
-    let t = 1.0 - vh;
-    let t2 = t * t;
-    let s = t2 * t2 * t;
-    let dielectric = s.mul_add(splat(simd, 1.0 - DIELECTRIC), splat(simd, DIELECTRIC));
-    [nl * (1.0 - dielectric), glossy * dielectric, glossy * (1.0 - s), glossy * s]
-}
-
-/// `√(α² + (1 − α²) c²)`
-#[inline(always)]
-fn masking<S: Simd>(simd: S, a: f32, c: f32x16<S>) -> f32x16<S> {
-    (c * c).mul_add(splat(simd, 1.0 - a * a), splat(simd, a * a)).sqrt()
-}
-
-/// [`super::microfacet::albedo`].
-#[inline(always)]
-fn lane_albedo<S: Simd>(simd: S, roughness: f32, nv: f32x16<S>) -> [f32x16<S>; 2] {
-    let r = ALBEDO.map(|[slope, offset]| roughness * slope + offset);
-    let a004 = exp2(simd, nv * -9.28).min(splat(simd, r[0] * r[0])).mul_add(splat(simd, r[0]), splat(simd, r[1]));
-    [a004.mul_add(splat(simd, -1.04), splat(simd, r[2])), a004.mul_add(splat(simd, 1.04), splat(simd, r[3]))]
 }
 
 /// `v` clamped to 0 … 1.

@@ -5,6 +5,7 @@
 
 mod environment;
 mod lane_environment;
+mod lane_facet;
 #[cfg(test)]
 mod lane_tests;
 mod lanes;
