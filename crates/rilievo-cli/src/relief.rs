@@ -91,7 +91,7 @@ impl DefaultMaterials {
     /// The default of material `number`.
     pub(crate) fn material(self, number: usize) -> Material {
         match self {
-            Self::Vase => vase::materials_over_color().get(number).copied().unwrap_or_default(),
+            Self::Vase => vase::materials_over_color().get(number).cloned().unwrap_or_default(),
             Self::Plain => Material::default(),
         }
     }

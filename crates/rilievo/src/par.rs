@@ -40,3 +40,26 @@ pub fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
 pub fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
     values.sort_unstable();
 }
+
+/// Rows of three arrays that belong together: calls `f(row_index, (row_a, row_b, row_c))`, rows `widths` long.
+#[cfg(feature = "rayon")]
+pub(crate) fn for_each_row3<A: Send, B: Send, C: Send>(
+    (a, b, c): (&mut [A], &mut [B], &mut [C]),
+    widths: [usize; 3],
+    f: impl Fn(usize, (&mut [A], &mut [B], &mut [C])) + Sync + Send,
+) {
+    use rayon::prelude::*;
+    let rows = a.par_chunks_mut(widths[0]).zip(b.par_chunks_mut(widths[1])).zip(c.par_chunks_mut(widths[2]));
+    rows.enumerate().for_each(|(y, ((a, b), c))| f(y, (a, b, c)));
+}
+
+/// Rows of three arrays that belong together: calls `f(row_index, (row_a, row_b, row_c))`, rows `widths` long.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn for_each_row3<A: Send, B: Send, C: Send>(
+    (a, b, c): (&mut [A], &mut [B], &mut [C]),
+    widths: [usize; 3],
+    f: impl Fn(usize, (&mut [A], &mut [B], &mut [C])) + Sync + Send,
+) {
+    let rows = a.chunks_mut(widths[0]).zip(b.chunks_mut(widths[1])).zip(c.chunks_mut(widths[2]));
+    rows.enumerate().for_each(|(y, ((a, b), c))| f(y, (a, b, c)));
+}

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use rilievo::height::{Filter, HeightMap, to_normals};
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable};
+use rilievo::light::{Light, Lighting, Material, ShadeTable};
 use rilievo::progress::Silent;
 use rilievo::quantize;
 use rilievo::raster::{Detail, Method, Object, Scene, Target, TextureFilter, draw, prepare};
@@ -27,10 +27,10 @@ fn pipeline() -> rilievo::Result<()> {
     let quantized = quantize::quantize(&bent.normals, &options, &Silent)?;
     println!("{:.2}° RMS", quantized.error.rms_rad.to_degrees());
 
-    let sun = DirectionalLight { direction: Normal::new(Vec3::new(-1.0, 1.0, 1.0)).expect("not zero"), color: LinearRgb::WHITE };
-    let lighting = Lighting { ambient: LinearRgb::gray(0.05), lights: vec![sun] };
+    let sun = Light::from_angles((-45f32).to_radians(), 35f32.to_radians(), LinearRgb::WHITE);
+    let lighting = Lighting::new(LinearRgb::gray(0.05), vec![sun]);
     let in_object = lighting.to_object(&Pose::IDENTITY);
-    let shades = ShadeTable::new(quantized.map.table(), LightingModel::BlinnPhong, &[Material::default()], &in_object, Normal::Z)?;
+    let shades = ShadeTable::new(quantized.map.table(), &[Material::default()], &in_object, Normal::Z, Vec3::ZERO)?;
 
     let camera = Camera::orbit(mesh.bounding_sphere(), 0.4, 0.5, 1.05, 0.6, 1.0)?;
     let object = Object::new(&mesh, Detail::Indexed(&quantized.map), &materials);

@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use glam::{DVec3, Vec2, Vec3};
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material};
+use rilievo::light::{Light, Lighting, Material};
 use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, Target, TextureFilter, draw, prepare};
 use rilievo::surface::{Camera, Mesh, MeshParts, shapes};
 use rilievo::{Edges, Grid, LinearRgb, MipChain, Normal, NormalTable, Pose, QuantizedMap};
@@ -10,12 +10,11 @@ use rilievo::{Edges, Grid, LinearRgb, MipChain, Normal, NormalTable, Pose, Quant
 const MATTE: [Material; 1] = [Material::MATTE_WHITE];
 
 fn light_from(direction: Vec3) -> Lighting<rilievo::World> {
-    let lights = vec![DirectionalLight { direction: Normal::new(direction).unwrap(), color: LinearRgb::WHITE }];
-    Lighting { ambient: LinearRgb::gray(0.02), lights }
+    Lighting::new(LinearRgb::gray(0.02), vec![Light::directional(Normal::new(direction).unwrap(), LinearRgb::WHITE)])
 }
 
 fn smooth(mesh: &Mesh) -> Object<'_> {
-    Object { model: LightingModel::Lambert, ..Object::new(mesh, Detail::Smooth, &MATTE) }
+    Object::new(mesh, Detail::Smooth, &MATTE)
 }
 
 fn render(scene: &Scene<'_>, method: Method, filter: TextureFilter, size: (u32, u32)) -> Target {
@@ -72,13 +71,13 @@ fn texture_coordinates_are_perspective_correct() {
     let texels =
         Grid::from_fn(256, 256, |x, y| LinearRgb::new((x as f32 + 0.5) / 256.0, (y as f32 + 0.5) / 256.0, 0.0));
     let levels = MipChain::single(texels.unwrap());
-    let white = [Material { diffuse: LinearRgb::WHITE, ..Material::MATTE_WHITE }];
+    let white = [Material::matte(LinearRgb::WHITE)];
     let object = Object {
         base_color: Some(BaseColor { levels: &levels, repeat: Vec2::ONE }),
         materials: &white,
         ..smooth(&mesh)
     };
-    let lighting = Lighting { ambient: LinearRgb::WHITE, lights: vec![] };
+    let lighting = Lighting::new(LinearRgb::WHITE, vec![]);
     let scene = Scene { objects: vec![object], lighting, camera };
     let size = (200, 150);
     let target = render(&scene, Method::Exact, TextureFilter::Bilinear, size);
@@ -113,7 +112,7 @@ fn clamped_maps_do_not_bleed_at_the_rim() {
         let bled = |edges| {
             let base_color = Some(BaseColor { levels: &levels, repeat: Vec2::new(repeat, 1.0) });
             let object = Object { base_color, edges, ..smooth(&mesh) };
-            let lighting = Lighting { ambient: LinearRgb::WHITE, lights: vec![] };
+            let lighting = Lighting::new(LinearRgb::WHITE, vec![]);
             let scene = Scene { objects: vec![object], lighting, camera };
             let target = render(&scene, Method::Exact, TextureFilter::Bilinear, size);
             let covered = |x: &u32| target.depth(*x, 50).is_some();
@@ -180,7 +179,7 @@ fn back_faces_are_lit_from_behind() {
         assert!(ambient < 0.03, "{method:?}, {detail:?}: {ambient} by a light in front");
         let lit = middle(Vec3::NEG_Z, true).unwrap() - ambient;
         // White, Lambert: the cosine.
-        let expected = normal.z * MATTE[0].diffuse.g;
+        let expected = normal.z * 0.8;
         assert!((lit - expected).abs() < 1e-5, "{method:?}, {detail:?}: {lit}, not {expected}, by a light behind");
         assert_eq!(middle(Vec3::NEG_Z, false), None);
     }

@@ -1,7 +1,7 @@
 //! Inputs that need no file: reliefs from noise.
 
 use anyhow::Result;
-use rilievo::light::{DirectionalLight, Lighting};
+use rilievo::light::{Light, Lighting};
 use rilievo::{Grid, LinearRgb, Normal, Space};
 use std::f64::consts::{PI, TAU};
 
@@ -60,15 +60,9 @@ fn lattice([x, y, z]: [u32; 3], seed: u32) -> f64 {
 
 /// A key light from the upper left and a weak one from the right, as seen by an eye on +Z.
 pub(crate) fn lighting<S: Space>() -> Lighting<S> {
-    let light =
-        |direction: [f32; 3], color| DirectionalLight { direction: Normal::new_or(direction.into(), Normal::Z), color };
-    Lighting {
-        ambient: LinearRgb::gray(0.08),
-        lights: vec![
-            light([-0.6, 0.5, 0.6], LinearRgb::new(1.2, 1.15, 1.05)),
-            light([0.9, 0.1, 0.2], LinearRgb::new(0.15, 0.18, 0.24)),
-        ],
-    }
+    let light = |toward: [f32; 3], color| Light::directional(Normal::new_or(toward.into(), Normal::Z), color);
+    let (key, fill) = (LinearRgb::new(1.2, 1.15, 1.05), LinearRgb::new(0.15, 0.18, 0.24));
+    Lighting::new(LinearRgb::gray(0.08), vec![light([-0.6, 0.5, 0.6], key), light([0.9, 0.1, 0.2], fill)])
 }
 
 #[cfg(test)]

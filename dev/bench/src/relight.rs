@@ -4,8 +4,9 @@ use crate::harness::duel;
 use crate::inputs;
 use crate::report::{Case, Report, Unit};
 use anyhow::{Result, ensure};
+use glam::Vec3;
 use rilievo::height::{Filter, HeightMap, to_normals};
-use rilievo::light::{LightingModel, Material, ShadeTable, relight};
+use rilievo::light::{Blend, Material, ShadeTable, relight};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Options, quantize};
 use rilievo::{Convention, Edges, Grid, MipChain, Normal, NormalTable, QuantizedMap, Tangent};
@@ -28,7 +29,7 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
         let colors: Vec<_> = shades(table)?.to_srgb().iter().map(|c| c.rgb()).collect();
         Ok(relight_in_place(&mut picture, &colors)?)
     };
-    let look_up = || Ok(relight(&map, &shades(map.table())?, None)?);
+    let look_up = || Ok(relight(&map, &shades(map.table())?, None, Blend::Add)?);
     let found = duel(rounds, rewrite, look_up)?;
 
     let case = |name: &str, peer: f64| Case::new(format!("relight/{name}"), Unit::Seconds, found.ours, Some(peer));
@@ -58,5 +59,5 @@ fn indexed_map() -> Result<QuantizedMap<Tangent>> {
 
 fn shades(table: &NormalTable<Tangent>) -> Result<ShadeTable> {
     let materials = [Material::default()];
-    Ok(ShadeTable::new(table, LightingModel::BlinnPhong, &materials, &inputs::lighting(), Normal::Z)?)
+    Ok(ShadeTable::new(table, &materials, &inputs::lighting(), Normal::Z, Vec3::ZERO)?)
 }

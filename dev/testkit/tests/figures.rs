@@ -11,7 +11,7 @@
 
 use rilievo::color::Picture;
 use rilievo::height::{Filter, HeightMap, to_normals};
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable, relight};
+use rilievo::light::{Blend, Light, Lighting, Material, ShadeTable, relight};
 use rilievo::measure::{angle_stats, picture_stats};
 use rilievo::normal::normal_levels;
 use rilievo::progress::Silent;
@@ -40,8 +40,8 @@ fn heights(name: &str) -> Option<Grid<f32>> {
 
 /// A white light from 45° to the left and 40° above, and a little from everywhere.
 fn lighting<S: Space>() -> Lighting<S> {
-    let light = DirectionalLight::from_angles((-45.0f32).to_radians(), 40.0f32.to_radians(), LinearRgb::WHITE);
-    Lighting { ambient: LinearRgb::gray(0.1), lights: vec![light] }.facing()
+    let light = Light::from_angles((-45.0f32).to_radians(), 40.0f32.to_radians(), LinearRgb::WHITE);
+    Lighting::new(LinearRgb::gray(0.1), vec![light]).facing()
 }
 
 /// A relief on a mesh, as it is and quantised.
@@ -69,11 +69,10 @@ impl Relief {
         Detail::Indexed(&self.quantized.map)
     }
 
-    fn render(&self, detail: Detail<'_>, method: Method, material: Material) -> Target {
-        let model = LightingModel::BlinnPhong;
-        let materials = [material];
+    fn render(&self, detail: Detail<'_>, method: Method, material: &Material) -> Target {
+        let materials = [material.clone()];
         let mesh = &self.mesh;
-        let object = Object { model, ..Object::new(mesh, detail, &materials) };
+        let object = Object::new(mesh, detail, &materials);
         let (elevation, fov) = (15.0f32.to_radians(), 30.0f32.to_radians());
         let camera = Camera::orbit(mesh.bounding_sphere(), 0.0, elevation, 1.05, fov, 1.0).unwrap();
         let scene = Scene { objects: vec![object], lighting: lighting(), camera };
@@ -84,8 +83,8 @@ impl Relief {
 
     /// Table against reference in dB over the whole picture, after telling what it is made of.
     fn measure(&self, name: &str) -> f64 {
-        let shiny = Material::default();
-        let matte = Material { specular: LinearRgb::BLACK, ..shiny };
+        let shiny = &Material::default();
+        let matte = &Material::MATTE_WHITE;
         let exact = self.render(self.unquantized(), Method::Exact, shiny);
         let table = self.render(self.indexed(), Method::Table, shiny);
         // The two approximations apart: the reference with quantised normals, and the table against that.
@@ -194,12 +193,11 @@ fn palette_relighting_is_relighting() {
     let map = quantize(&normals, &Options { entries: 256, ..Options::default() }, &Silent).unwrap().map;
     let file = Source::from_bytes("bricks.png", encode_indexed_png(&map, Convention::Gl).unwrap());
     let materials = [Material::default()];
-    let model = LightingModel::BlinnPhong;
-    let shades = ShadeTable::new(map.table(), model, &materials, &lighting(), Normal::Z).unwrap();
+    let shades = ShadeTable::new(map.table(), &materials, &lighting(), Normal::Z, glam::Vec3::ZERO).unwrap();
     let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
     let relit = PalettePng::parse(&file).unwrap().relit(&colors).unwrap();
     let shown: Picture = decode_picture(&Source::from_bytes("relit.png", relit), &Limits::default()).unwrap();
-    assert_eq!(shown, relight(&map, &shades, None).unwrap());
+    assert_eq!(shown, relight(&map, &shades, None, Blend::Add).unwrap());
     // Bricks and joints: not one colour, which anything would reproduce.
     let (low, high) = shown.texels().iter().fold((255, 0), |(l, h), p| (p.g.min(l), p.g.max(h)));
     assert!(low < 100 && high > 200, "{low} … {high}");

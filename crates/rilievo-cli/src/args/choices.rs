@@ -2,7 +2,6 @@
 
 use clap::ValueEnum;
 use rilievo::height::Filter;
-use rilievo::light::LightingModel;
 use rilievo::quantize::{Dither, Effort};
 use rilievo::raster::{Method, TextureFilter};
 use rilievo::{Convention, Edges};
@@ -115,15 +114,15 @@ choice!(
         Trilinear => TextureFilter::Trilinear,
     }
 );
-choice!(
-    /// How surfaces answer light.
-    ModelArg => LightingModel {
-        /// Ambient and diffuse.
-        Lambert => LightingModel::Lambert,
-        /// Ambient, diffuse and highlights.
-        BlinnPhong => LightingModel::BlinnPhong,
-    }
-);
+
+/// How surfaces answer light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ModelArg {
+    /// Ambient and diffuse.
+    Lambert,
+    /// Ambient, diffuse and highlights.
+    BlinnPhong,
+}
 
 impl ConventionArg {
     /// How generated names say it.

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use clap::Args;
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material};
+use rilievo::light::{Light, Lighting, LightingModel, Material};
 use rilievo::{LinearRgb, World};
 
 use super::values::finite;
@@ -30,11 +30,18 @@ pub(crate) struct LightArgs {
 impl LightArgs {
     /// The light, with every lamp carried `turn_rad` further round the vertical axis.
     pub(crate) fn lighting(&self, turn_rad: f32) -> Lighting<World> {
-        Lighting { ambient: self.ambient.0, lights: self.lights.iter().map(|l| l.resolve(turn_rad)).collect() }
+        Lighting::new(self.ambient.0, self.lights.iter().map(|l| l.resolve(turn_rad)).collect())
     }
 
-    pub(crate) fn model(&self) -> LightingModel {
-        self.model.into()
+    /// What the chosen model leaves of a material.
+    pub(crate) fn apply(&self, material: Material) -> Material {
+        match self.model {
+            ModelArg::BlinnPhong => material,
+            ModelArg::Lambert => {
+                let glossy = |model: &LightingModel| matches!(model, LightingModel::BlinnPhong { .. });
+                Material::new(material.layers().iter().copied().filter(|l| !glossy(&l.model)))
+            }
+        }
     }
 }
 
@@ -47,8 +54,8 @@ pub(crate) struct LightArg {
 }
 
 impl LightArg {
-    fn resolve(&self, turn_rad: f32) -> DirectionalLight<World> {
-        DirectionalLight::from_angles(self.azimuth_rad + turn_rad, self.elevation_rad, self.color)
+    fn resolve(&self, turn_rad: f32) -> Light<World> {
+        Light::from_angles(self.azimuth_rad + turn_rad, self.elevation_rad, self.color)
     }
 }
 
@@ -83,11 +90,11 @@ impl MaterialArgs {
             exit::warn("--material", &format!("there is no material {}: the maps name {count}", absent.number));
         }
         let given = |n: usize| self.material.iter().rev().find(|m| usize::from(m.number) == n);
-        (0..count.max(1)).map(|n| given(n).map_or_else(|| default(n), |m| m.material)).collect()
+        (0..count.max(1)).map(|n| given(n).map_or_else(|| default(n), |m| m.material.clone())).collect()
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct MaterialArg {
     number: u8,
     material: Material,
@@ -103,13 +110,10 @@ impl FromStr for MaterialArg {
             [number, diffuse, ..] if parts.len() <= 4 => (number, diffuse),
             _ => return Err(form()),
         };
-        let mut material = Material { diffuse: diffuse.parse::<ColorArg>()?.0, ..Material::default() };
-        if let Some(specular) = parts.get(2) {
-            material.specular = specular.parse::<ColorArg>()?.0;
-        }
-        if let Some(shininess) = parts.get(3) {
-            material.shininess = finite(shininess).filter(|s| *s >= 0.0).ok_or_else(form)?;
-        }
+        let diffuse = diffuse.parse::<ColorArg>()?.0;
+        let specular = parts.get(2).map_or(Ok(ColorArg(LinearRgb::gray(0.15))), |s| s.parse())?.0;
+        let shininess = parts.get(3).map_or(Some(40.0), |s| finite(s).filter(|s| *s >= 0.0)).ok_or_else(form)?;
+        let material = Material::blinn_phong(diffuse, specular, shininess);
         Ok(Self { number: number.trim().parse().map_err(|_| form())?, material })
     }
 }
@@ -121,7 +125,7 @@ mod tests {
 
     #[test]
     fn lights_come_from_where_they_say() {
-        let toward = |text: &str| text.parse::<LightArg>().unwrap().resolve(0.0).direction.vec();
+        let toward = |text: &str| text.parse::<LightArg>().unwrap().resolve(0.0).toward(Vec3::ZERO).unwrap();
         assert!((toward("90,0") - Vec3::X).length() < 1e-6);
         assert!((toward("0,0") - Vec3::Z).length() < 1e-6);
         assert!((toward("-90,0,ff0000") + Vec3::X).length() < 1e-6);
@@ -135,8 +139,8 @@ mod tests {
     fn the_last_material_of_a_number_counts() {
         let args = MaterialArgs { material: ["1,000000", "1,ffffff,ffffff*0.5,7"].map(|t| t.parse().unwrap()).into() };
         let all = args.resolve(3, |_| Material::MATTE_WHITE);
-        assert_eq!((all[0], all[2]), (Material::MATTE_WHITE, Material::MATTE_WHITE));
-        assert_eq!((all[1].diffuse, all[1].shininess), (LinearRgb::WHITE, 7.0));
+        assert_eq!((&all[0], &all[2]), (&Material::MATTE_WHITE, &Material::MATTE_WHITE));
+        assert_eq!(all[1], Material::blinn_phong(LinearRgb::WHITE, LinearRgb::gray(0.5), 7.0));
         for bad in ["", "1", "256,ffffff", "0,ffffff,ffffff,-1", "0,ffffff,ffffff,1,2"] {
             assert!(bad.parse::<MaterialArg>().is_err(), "{bad}");
         }

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use glam::Vec3;
 use rilievo::color::Picture;
-use rilievo::light::{Lighting, Material, ShadeTable, relight};
+use rilievo::light::{Blend, Lighting, Material, ShadeTable, relight};
 use rilievo::{Normal, NormalTable, QuantizedMap, Rgba8, Space};
 use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
 
@@ -108,7 +109,7 @@ fn relit_map<S: Space>(args: &Args, map: &QuantizedMap<S>, input: &Path) -> Resu
     for frame in 0..args.frames {
         let turn = frame as f32 / args.frames as f32 * std::f32::consts::TAU;
         let shades = light_table(args, map.table(), &args.light.lighting(turn))?;
-        frames.push(relight(map, &shades, base.as_ref())?);
+        frames.push(relight(map, &shades, base.as_ref(), Blend::Add)?);
         rilievo::Progress::advance(&progress, 1);
     }
     Ok(progress.step("packing", || match frames.as_slice() {
@@ -125,6 +126,7 @@ fn light_table<S: Space>(
 ) -> Result<ShadeTable> {
     let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
     let materials = args.material.resolve(count, |_| Material::default());
-    let shades = ShadeTable::new(table, args.light.model(), &materials, &lighting.facing(), Normal::Z);
+    let materials: Vec<Material> = materials.into_iter().map(|m| args.light.apply(m)).collect();
+    let shades = ShadeTable::new(table, &materials, &lighting.facing(), Normal::Z, Vec3::ZERO);
     shades.map_err(|e| usage(e.to_string()))
 }

@@ -143,6 +143,7 @@ struct Shoot<'a> {
 impl<'a> Shoot<'a> {
     fn new(args: &'a Args, relief: &'a Relief, target: Target) -> Self {
         let materials = args.material.resolve(relief.material_count(), |m| relief.default_materials.material(m));
+        let materials = materials.into_iter().map(|m| args.light.apply(m)).collect();
         Self { args, relief, target, materials, table_seconds: 0.0, draw_seconds: 0.0 }
     }
 
@@ -154,7 +155,6 @@ impl<'a> Shoot<'a> {
             // About the middle of the object, not about its origin.
             pose: Pose::turned_about(self.relief.mesh.bounding_sphere().0, turn_of(Turn::Object)),
             base_color: self.relief.base_color(),
-            model: args.light.model(),
             double_sided: args.double_sided,
             edges: args.relief.edges(),
             ..Object::new(&self.relief.mesh, self.relief.detail(), &self.materials)

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use rilievo::color::Picture;
 use rilievo::height::{Filter, to_normals};
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, ShadeTable};
+use rilievo::light::{Light, Lighting, ShadeTable};
 use rilievo::measure::{DEFAULT_PIXELS_PER_DEGREE, flip_mean, picture_stats};
 use rilievo::normal::normal_levels;
 use rilievo::quantize::{Effort, Options, Quantized, fejes_toth_rms_rad, quantize};
@@ -134,7 +134,7 @@ impl<'a> Demo<'a> {
             let png = PalettePng::parse(&source)?;
             let materials = vase::materials_colored();
             let table = quantized.map.table();
-            let shades = ShadeTable::new(table, LightingModel::BlinnPhong, &materials, &lights.facing(), Normal::Z)?;
+            let shades = ShadeTable::new(table, &materials, &lights.facing(), Normal::Z, Vec3::ZERO)?;
             let colors: Vec<[u8; 3]> = shades.to_srgb().into_iter().map(Rgba8::rgb).collect();
             let relit = png.relit(&colors)?;
             microseconds.push(started.elapsed().as_secs_f64() * 1e6);
@@ -269,7 +269,6 @@ impl<'a> Demo<'a> {
         let object = Object {
             pose: Pose::turned_about(sphere.0, turn_rad),
             base_color: Some(BaseColor { levels: &self.color, repeat: Vec2::ONE }),
-            model: LightingModel::BlinnPhong,
             ..Object::new(&self.mesh, detail, &materials)
         };
         let aspect = size.0 as f32 / size.1 as f32;
@@ -284,16 +283,11 @@ impl<'a> Demo<'a> {
 
 /// A warm key light that moves, and a weak cool one that does not.
 fn lights(azimuth_deg: f32, elevation_deg: f32) -> Lighting<World> {
-    let light = |azimuth: f32, elevation: f32, color| {
-        DirectionalLight::from_angles(azimuth.to_radians(), elevation.to_radians(), color)
-    };
-    Lighting {
-        ambient: LinearRgb::new(0.10, 0.10, 0.11),
-        lights: vec![
-            light(azimuth_deg, elevation_deg, LinearRgb::new(1.25, 1.18, 1.08)),
-            light(110.0, 10.0, LinearRgb::new(0.16, 0.19, 0.24)),
-        ],
-    }
+    let light =
+        |azimuth: f32, elevation: f32, color| Light::from_angles(azimuth.to_radians(), elevation.to_radians(), color);
+    let key = light(azimuth_deg, elevation_deg, LinearRgb::new(1.25, 1.18, 1.08));
+    let fill = light(110.0, 10.0, LinearRgb::new(0.16, 0.19, 0.24));
+    Lighting::new(LinearRgb::new(0.10, 0.10, 0.11), vec![key, fill])
 }
 
 fn degrees<S: Space>(quantized: &Quantized<S>) -> String {

@@ -1,14 +1,30 @@
 //! Light: models, materials, and the shade table.
 //!
-//! One function, [`shade`], evaluates a lighting model for a normal. The shade table calls it once per entry, the
-//! per-pixel methods once per pixel; so they can only differ by what they feed it.
+//! One function, [`shade`], defines what a material does with light. Shade tables and tiles of pixels evaluate it sixteen
+//! normals at a time (`lanes`), held against the definition in a test; so the methods can only differ by what they feed it.
 
+mod environment;
+mod lane_environment;
+#[cfg(test)]
+mod lane_tests;
+mod lanes;
+mod lights;
 mod material;
+mod microfacet;
 mod model;
 mod relight;
+mod scalar;
+mod shade;
 mod shade_table;
+#[cfg(test)]
+mod tests;
 
-pub use material::Material;
-pub use model::{DirectionalLight, Lighting, LightingModel, Shade, shade};
+pub use environment::{Environment, Projection};
+pub(crate) use lanes::Prepared;
+pub use lights::{Light, Lighting};
+pub use material::{Layer, Material};
+pub use model::{Bands, Landscape, LightingModel, MAX_BANDS};
 pub use relight::relight;
+pub use scalar::shade;
+pub use shade::{Blend, Shade};
 pub use shade_table::ShadeTable;

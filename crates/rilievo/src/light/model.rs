@@ -1,175 +1,214 @@
-//! Lighting models: normal → light.
-
-use glam::Vec3;
+//! Lighting models and their parameters.
 
 use crate::color::LinearRgb;
-use crate::light::Material;
-use crate::normal::{Normal, Object, Space, World};
-use crate::pose::Pose;
+use crate::error::{Error, Result};
 
-/// A light so far away that its direction is the same everywhere.
+/// How a surface answers light: one term of a [`crate::light::Material`], evaluated by [`crate::light::shade`].
+///
+/// Each is a function of the normal `n` for given light and view directions, so that a table can hold it. Below, `l` is the
+/// direction to the light, `v` to the eye, `h` halfway between them; `r` is `v` mirrored at `n`. What says "tinted" goes
+/// to [`crate::light::Shade::diffuse`], the rest to [`crate::light::Shade::specular`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DirectionalLight<S> {
-    /// From the surface to the light.
-    pub direction: Normal<S>,
-    /// Linear colour times intensity: what a white matte surface facing the light shows.
-    pub color: LinearRgb,
-}
-
-impl DirectionalLight<World> {
-    /// A light from the given side: azimuth 0 is the front (+Z) and π/2 the right (+X), elevation goes up from the horizon.
-    pub fn from_angles(azimuth_rad: f32, elevation_rad: f32, color: LinearRgb) -> Self {
-        let ((sin_a, cos_a), (sin_e, cos_e)) = (azimuth_rad.sin_cos(), elevation_rad.sin_cos());
-        let toward = Vec3::new(cos_e * sin_a, sin_e, cos_e * cos_a);
-        Self { direction: Normal::new_or(toward, Normal::Z), color }
-    }
-}
-
-/// All light that falls on an object, in space `S`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Lighting<S> {
-    /// Light from everywhere.
-    pub ambient: LinearRgb,
-    /// Any number of directional lights.
-    pub lights: Vec<DirectionalLight<S>>,
-}
-
-impl Lighting<World> {
-    /// The same light as the object sees it in its own space.
-    pub fn to_object(&self, pose: &Pose) -> Lighting<Object> {
-        let lights = self.lights.iter();
-        let lights = lights.map(|l| DirectionalLight { direction: pose.to_object(l.direction), color: l.color });
-        Lighting { ambient: self.ambient, lights: lights.collect() }
-    }
-}
-
-impl Lighting<World> {
-    /// The same light on a flat map that lies in the picture plane, whose own axes are the world's.
-    pub fn facing<S: Space>(&self) -> Lighting<S> {
-        let lights = self.lights.iter();
-        let lights = lights.map(|l| DirectionalLight { direction: l.direction.relabel(), color: l.color });
-        Lighting { ambient: self.ambient, lights: lights.collect() }
-    }
-}
-
-/// How a surface answers light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum LightingModel {
-    /// Ambient and Lambert's cosine law.
-    Lambert,
-    /// Ambient, Lambert, and Blinn's half-vector highlight.
-    #[default]
-    BlinnPhong,
+    /// Light from everywhere, times `color`; tinted.
+    Ambient {
+        /// Reflectance.
+        color: LinearRgb,
+    },
+    /// Lambert's cosine law: `n·l`, times `color`; tinted.
+    Lambert {
+        /// Reflectance.
+        color: LinearRgb,
+    },
+    /// Lambert's cosine, rounded to the nearest of `0, 1/steps, … 1`; tinted.
+    Steps {
+        /// Reflectance.
+        color: LinearRgb,
+        /// Steps between dark and fully lit; none count as one.
+        steps: u16,
+    },
+    /// Flat colours, chosen by how much light falls on the surface; tinted (Tarini et al. 2000, § 5.1, item 4).
+    Cartoon {
+        /// The colours, and from how much light on they are used.
+        bands: Bands,
+    },
+    /// Phong's highlight: `(r·l)^shininess`, times `color`; not energy-normalised, as in the source.
+    Phong {
+        /// Reflectance.
+        color: LinearRgb,
+        /// Exponent, ≥ 0; larger is shinier.
+        shininess: f32,
+    },
+    /// Blinn's half-vector highlight: `(n·h)^shininess`, times `color`; not energy-normalised.
+    BlinnPhong {
+        /// Reflectance.
+        color: LinearRgb,
+        /// Exponent, ≥ 0; four times that of Phong's looks alike.
+        shininess: f32,
+    },
+    /// Phong's highlight with the angle between the mirrored light and the eye doubled: `cos(2θ)^shininess`, times `color`.
+    ///
+    /// Not of this world: the highlight is half as wide, and there is a second one where the doubled angle comes full circle,
+    /// on rims lit from beside the eye (Tarini et al. 2000, fig. 6).
+    DoubledAngle {
+        /// Reflectance.
+        color: LinearRgb,
+        /// Exponent, ≥ 0.
+        shininess: f32,
+    },
+    /// A mirror in an open landscape (Tarini et al. 2000, fig. 7).
+    Chrome {
+        /// What it mirrors.
+        landscape: Landscape,
+    },
+    /// A mirror in [`crate::light::Lighting::environment`], times `color` (Tarini et al. 2000, § 5.1, item 3).
+    Environment {
+        /// Reflectance.
+        color: LinearRgb,
+        /// From 0, a clear mirror, to 1: how blurred the reflection is.
+        roughness: f32,
+    },
+    /// The metallic-roughness BRDF of glTF 2.0 (appendix B): GGX with height-correlated Smith shadowing, Schlick's Fresnel
+    /// and Lambert's diffuse light.
+    ///
+    /// `α = roughness²`, at least 0.002; `F₀` is 0.04, and `base_color` for metal. Lights are scaled so that a white
+    /// dielectric without gloss shows what [`LightingModel::Lambert`] does.
+    ///
+    /// What falls on it from everywhere: the diffuse part mirrors the ambient light, the specular part the environment (or the ambient
+    /// light if there is none) by the directional albedo of GGX, which is approximated (Karis 2014, "Physically Based Shading on
+    /// Mobile").
+    ///
+    /// What metal mirrors is tinted by the base colour, as far as it is linear in it: exact for metallic 0 and 1.
+    MetallicRoughness {
+        /// Reflectance: diffuse of dielectrics, specular at right angles of metals.
+        base_color: LinearRgb,
+        /// From 0, a dielectric, to 1, a metal.
+        metallic: f32,
+        /// From 0, a mirror, to 1, chalk.
+        roughness: f32,
+    },
 }
 
-/// What a lighting model says of one normal: light for the base colour to tint, and light that goes on top.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Default, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Shade {
-    /// Ambient and diffuse light, already times the material's reflectance.
-    pub diffuse: LinearRgb,
-    /// Specular light; not tinted by the base colour.
-    pub specular: LinearRgb,
+/// The most colours [`Bands`] have.
+pub const MAX_BANDS: usize = 8;
+
+/// A few flat colours, from dark to bright.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bands {
+    /// Thresholds and colours; those past `len` are not used.
+    bands: [(f32, LinearRgb); MAX_BANDS],
+    len: usize,
 }
 
-impl Shade {
-    /// The light that leaves a surface of the given base colour.
-    pub fn over(self, base: LinearRgb) -> LinearRgb {
-        self.diffuse * base + self.specular
-    }
-
-    /// `self` and `weight` times `other`, for filtering.
-    pub fn add_weighted(self, other: Self, weight: f32) -> Self {
-        Self { diffuse: self.diffuse + other.diffuse * weight, specular: self.specular + other.specular * weight }
-    }
-}
-
-/// Evaluates `model` for a surface of normal `n`, seen from direction `view` (surface → eye).
-///
-/// Light from behind the surface (n·l ≤ 0) gives neither diffuse light nor a highlight. The highlight is
-/// `(n·h)^shininess`, not energy-normalised, as in the source.
-///
-/// - **Source:** Tarini et al. 2000, § 5.1, items 1 and 2; Blinn 1977 for the half-vector.
-pub fn shade<S: Space>(
-    model: LightingModel,
-    material: &Material,
-    lighting: &Lighting<S>,
-    n: Normal<S>,
-    view: Normal<S>,
-) -> Shade {
-    let n = n.vec();
-    let mut incident = lighting.ambient;
-    let mut specular = LinearRgb::BLACK;
-    for light in &lighting.lights {
-        let l = light.direction.vec();
-        let cosine = n.dot(l);
-        if cosine <= 0.0 {
-            continue;
+impl Bands {
+    /// Colours with the light from which on each is used, in rising order; the first is used below all thresholds too.
+    ///
+    /// The light is that of all lights, each weighted by its cosine and its luminance: for one white light it is the
+    /// cosine.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for none or more than [`MAX_BANDS`] colours, or thresholds that do not rise.
+    pub fn new(bands: &[(f32, LinearRgb)]) -> Result<Self> {
+        let rising = bands.windows(2).all(|pair| pair[0].0 < pair[1].0) && bands.iter().all(|b| b.0.is_finite());
+        if bands.is_empty() || bands.len() > MAX_BANDS || !rising {
+            let given: Vec<f32> = bands.iter().map(|b| b.0).collect();
+            let expected = format!("1 to {MAX_BANDS} thresholds in rising order");
+            return Err(Error::parameter("bands", format_args!("{given:?}"), expected));
         }
-        incident += light.color * cosine;
-        if model == LightingModel::BlinnPhong {
-            // A light straight behind the eye's opposite gives h = 0 and no highlight.
-            let h = (l + view.vec()).normalize_or_zero();
-            specular += light.color * n.dot(h).max(0.0).powf(material.shininess);
-        }
+        let mut all = [(0.0, LinearRgb::BLACK); MAX_BANDS];
+        all[..bands.len()].copy_from_slice(bands);
+        Ok(Self { bands: all, len: bands.len() })
     }
-    Shade { diffuse: incident * material.diffuse, specular: specular * material.specular }
+
+    /// Three tones of a colour: shadow, half light, light.
+    pub fn of(color: LinearRgb) -> Self {
+        let mut bands = [(0.0, LinearRgb::BLACK); MAX_BANDS];
+        bands[..3].copy_from_slice(&[(0.0, color * 0.25), (0.2, color * 0.6), (0.65, color)]);
+        Self { bands, len: 3 }
+    }
+
+    /// Thresholds and colours in rising order.
+    pub fn bands(&self) -> &[(f32, LinearRgb)] {
+        &self.bands[..self.len]
+    }
+
+    /// The colour for so much light.
+    pub(super) fn at(&self, light: f32) -> LinearRgb {
+        self.bands().iter().skip(1).fold(self.bands[0].1, |color, band| if light >= band.0 { band.1 } else { color })
+    }
+}
+
+/// What chrome mirrors: a sky and a ground, each shaded from the horizon up or down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Landscape {
+    /// Straight up.
+    pub zenith: LinearRgb,
+    /// The sky at the horizon.
+    pub sky: LinearRgb,
+    /// The ground at the horizon.
+    pub ground: LinearRgb,
+    /// Straight down.
+    pub nadir: LinearRgb,
+}
+
+impl Landscape {
+    /// Half the sine of the angle over which sky and ground meet, so that the horizon has no steps.
+    pub(super) const HAZE: f32 = 0.02;
+
+    /// Brown earth under a blue sky that is pale at the horizon: the landscape of the source.
+    pub const BROWN_AND_BLUE: Self = Self {
+        zenith: LinearRgb::new(0.05, 0.16, 0.55),
+        sky: LinearRgb::new(0.75, 0.88, 1.0),
+        ground: LinearRgb::new(0.16, 0.085, 0.04),
+        nadir: LinearRgb::new(0.45, 0.28, 0.15),
+    };
+
+    /// The same in other light: all colours times `color`.
+    pub fn times(&self, color: LinearRgb) -> Self {
+        let [zenith, sky, ground, nadir] = [self.zenith, self.sky, self.ground, self.nadir].map(|c| c * color);
+        Self { zenith, sky, ground, nadir }
+    }
+
+    /// The colour towards a direction, by the sine of its elevation.
+    pub(super) fn at(&self, elevation: f32) -> LinearRgb {
+        let (up, down) = (elevation.clamp(0.0, 1.0), (-elevation).clamp(0.0, 1.0));
+        let sky = self.sky * (1.0 - up) + self.zenith * up;
+        let ground = self.ground * (1.0 - down) + self.nadir * down;
+        let share = (elevation / (2.0 * Self::HAZE) + 0.5).clamp(0.0, 1.0);
+        ground * (1.0 - share) + sky * share
+    }
+}
+
+impl Default for Landscape {
+    fn default() -> Self {
+        Self::BROWN_AND_BLUE
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn from_left() -> Lighting<Object> {
-        let direction = Normal::new(Vec3::new(-1.0, 0.0, 1.0)).unwrap();
-        Lighting {
-            ambient: LinearRgb::gray(0.1),
-            lights: vec![DirectionalLight { direction, color: LinearRgb::WHITE }],
+    #[test]
+    fn bands_start_at_their_thresholds() {
+        let (a, b, c) = (LinearRgb::gray(0.1), LinearRgb::gray(0.2), LinearRgb::gray(0.3));
+        let bands = Bands::new(&[(0.0, a), (0.25, b), (0.5, c)]).unwrap();
+        let seen = [-1.0, 0.0, 0.2499, 0.25, 0.49, 0.5, 7.0].map(|light| bands.at(light));
+        assert_eq!(seen, [a, a, a, b, b, c, c]);
+        assert_eq!(bands.bands().len(), 3);
+        for bad in [&[][..], &[(0.5, a), (0.5, b)], &[(0.5, a), (0.1, b)], &[(f32::NAN, a)], &[(0.0, a); 9]] {
+            assert!(Bands::new(bad).is_err(), "{bad:?}");
         }
     }
 
     #[test]
-    fn light_from_the_left_lights_left_slopes() {
-        let lit = |x: f32| {
-            let n = Normal::new(Vec3::new(x, 0.0, 1.0)).unwrap();
-            shade(LightingModel::Lambert, &Material::MATTE_WHITE, &from_left(), n, Normal::Z).diffuse.r
-        };
-        assert!(lit(-0.5) > lit(0.0) && lit(0.0) > lit(0.5));
-    }
-
-    #[test]
-    fn facing_the_light_gives_its_color_and_behind_gives_ambient() {
-        let lighting = from_left();
-        let toward = lighting.lights[0].direction;
-        let away = Normal::new(-toward.vec()).unwrap();
-        let material = Material { specular: LinearRgb::WHITE, ..Material::MATTE_WHITE };
-        let front = shade(LightingModel::BlinnPhong, &material, &lighting, toward, toward);
-        assert!((front.diffuse.g - 0.8 * 1.1).abs() < 1e-6 && (front.specular.g - 1.0).abs() < 1e-5);
-        let back = shade(LightingModel::BlinnPhong, &material, &lighting, away, toward);
-        assert_eq!((back.diffuse, back.specular), (LinearRgb::gray(0.1) * LinearRgb::gray(0.8), LinearRgb::BLACK));
-    }
-
-    #[test]
-    fn lights_add_up() {
-        let mut two = from_left();
-        two.lights.push(DirectionalLight { direction: Normal::Y, color: LinearRgb::new(0.0, 0.5, 0.0) });
-        let n = Normal::new(Vec3::new(-0.2, 0.6, 0.7)).unwrap();
-        let eval = |l: &Lighting<Object>| shade(LightingModel::BlinnPhong, &Material::default(), l, n, Normal::Z);
-        let only_second = Lighting { ambient: LinearRgb::BLACK, lights: vec![two.lights[1]] };
-        let (sum, a, b) = (eval(&two), eval(&from_left()), eval(&only_second));
-        assert!((sum.diffuse.g - a.diffuse.g - b.diffuse.g).abs() < 1e-6);
-        assert!((sum.specular.g - a.specular.g - b.specular.g).abs() < 1e-6);
-    }
-
-    #[test]
-    fn light_turns_with_the_object() {
-        let world = Lighting {
-            ambient: LinearRgb::BLACK,
-            lights: vec![DirectionalLight { direction: Normal::<World>::X, color: LinearRgb::WHITE }],
-        };
-        let pose = Pose::turned(std::f32::consts::FRAC_PI_2);
-        // The object's +Z points to world +X, so it sees the light along its own +Z.
-        assert!(world.to_object(&pose).lights[0].direction.angle_to(Normal::Z) < 1e-6);
+    fn landscapes_are_brown_below_and_blue_above() {
+        let land = Landscape::BROWN_AND_BLUE;
+        assert_eq!((land.at(1.0), land.at(-1.0)), (land.zenith, land.nadir));
+        for i in 1..100 {
+            let (up, down) = (land.at(i as f32 / 100.0 + 0.02), land.at(-i as f32 / 100.0 - 0.02));
+            assert!(up.b > up.r && down.r > down.b, "{up:?} {down:?}");
+        }
     }
 }

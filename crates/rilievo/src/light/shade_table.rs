@@ -1,10 +1,16 @@
 //! The shade table: the one thing that is lit each frame.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x16};
+use glam::Vec3;
+
 use crate::color::{LinearRgb, Rgba8};
 use crate::error::{Error, Result};
 use crate::indexed::NormalTable;
-use crate::light::{Lighting, LightingModel, Material, Shade, shade};
+use crate::light::scalar::luminance;
+use crate::light::{Blend, Lighting, Material, Prepared, Shade};
 use crate::normal::{Normal, Space};
+use crate::simd::{LANES, splat3};
 
 /// One [`Shade`] per entry of a [`NormalTable`].
 ///
@@ -18,18 +24,20 @@ pub struct ShadeTable {
 impl ShadeTable {
     /// Lights every entry of `table`.
     ///
-    /// `lighting` and `view` (surface → eye) are in the table's own space; material `m` uses `materials[m]`.
+    /// `lighting` and `view` (surface → eye) are in the table's own space; material `m` is `materials[m]`. Point lights
+    /// count as directional, as seen from `middle`, the middle of the object.
     ///
     /// # Errors
     /// [`Error::IndexRange`] if the table names a material that is not there.
     pub fn new<S: Space>(
         table: &NormalTable<S>,
-        model: LightingModel,
         materials: &[Material],
         lighting: &Lighting<S>,
         view: Normal<S>,
+        middle: Vec3,
     ) -> Result<Self> {
-        let mut entries = Vec::with_capacity(table.len());
+        let lighting = &lighting.from_place(middle);
+        let mut entries = vec![Shade::default(); table.len()];
         for (at, span) in table.spans().iter().enumerate() {
             let index = usize::from(span.material);
             let material = materials.get(index).ok_or(Error::IndexRange {
@@ -38,15 +46,33 @@ impl ShadeTable {
                 index: index as u64,
                 len: materials.len(),
             })?;
-            let normals = &table.normals()[span.entries.start as usize..span.entries.end as usize];
-            entries.extend(normals.iter().map(|&n| shade(model, material, lighting, n, view)));
+            let range = span.entries.start as usize..span.entries.end as usize;
+            let prepared = Prepared::new(material, lighting);
+            let (normals, shades) = (&table.normals()[range.clone()], &mut entries[range]);
+            dispatch!(Level::new(), simd => light_span(simd, &prepared, normals, view, shades));
         }
         Ok(Self { entries })
     }
 
     /// The colours of a white surface, encoded: what a palette holds.
     pub fn to_srgb(&self) -> Vec<Rgba8> {
-        self.entries.iter().map(|s| s.over(LinearRgb::WHITE).to_srgb()).collect()
+        self.colors().map(LinearRgb::to_srgb).collect()
+    }
+
+    /// Entries of the kind *colour*: what is shown as it is, in linear light (Tarini et al. 2000, § 5.1 and § 7.3).
+    pub fn colors(&self) -> impl ExactSizeIterator<Item = LinearRgb> {
+        self.entries.iter().map(|s| s.over(LinearRgb::WHITE, Blend::Material))
+    }
+
+    /// Entries of the kind *intensity*: the brightness of the diffuse light, for the base colour to be multiplied by.
+    pub fn intensities(&self) -> impl ExactSizeIterator<Item = f32> {
+        self.entries.iter().map(|s| luminance(s.diffuse))
+    }
+
+    /// Entries of the kind *intensity and specular colour*: the three colours of the specular light with the intensity
+    /// behind them, as eqs. (1) and (2) take them from an RGBA texture (Tarini et al. 2000, § 7.1).
+    pub fn intensities_and_speculars(&self) -> impl ExactSizeIterator<Item = [f32; 4]> {
+        self.entries.iter().map(|s| [s.specular.r, s.specular.g, s.specular.b, luminance(s.diffuse)])
     }
 
     /// The shades, in table order.
@@ -55,29 +81,50 @@ impl ShadeTable {
     }
 }
 
+/// Lights the entries of one material, sixteen at a time; the last ones share their lanes with repetitions.
+#[inline(always)]
+fn light_span<S: Simd, Sp: Space>(
+    simd: S,
+    material: &Prepared<Sp>,
+    normals: &[Normal<Sp>],
+    view: Normal<Sp>,
+    shades: &mut [Shade],
+) {
+    let view = splat3(simd, view.vec().to_array());
+    // Point lights were taken for directional ones.
+    let nowhere = splat3(simd, [0.0; 3]);
+    for (normals, shades) in normals.chunks(LANES).zip(shades.chunks_mut(LANES)) {
+        let last = normals.len() - 1;
+        let n = [0, 1, 2].map(|i| f32x16::from_fn(simd, |lane| normals[lane.min(last)].vec()[i]));
+        let lit = material.shade(simd, n, view, nowhere);
+        for (lane, shade) in shades.iter_mut().enumerate() {
+            let [r, g, b, sr, sg, sb] = lit.map(|v| v[lane]);
+            *shade = Shade { diffuse: LinearRgb::new(r, g, b), specular: LinearRgb::new(sr, sg, sb) };
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::indexed::MaterialSpan;
-    use crate::light::DirectionalLight;
+    use crate::light::Light;
     use crate::normal::Object;
-    use glam::Vec3;
 
     #[test]
     fn each_span_is_lit_with_its_material() {
         let spans = [(0, 0..1), (2, 1..3)].map(|(material, entries)| MaterialSpan { material, entries });
         let n = Normal::<Object>::new(Vec3::new(0.1, 0.2, 0.9)).unwrap();
         let table = NormalTable::with_materials(vec![n, n, Normal::Z], spans.to_vec()).unwrap();
-        let red = Material { diffuse: LinearRgb::new(1.0, 0.0, 0.0), ..Material::MATTE_WHITE };
-        let lighting = Lighting {
-            ambient: LinearRgb::BLACK,
-            lights: vec![DirectionalLight { direction: Normal::Z, color: LinearRgb::WHITE }],
-        };
+        let red = Material::matte(LinearRgb::new(1.0, 0.0, 0.0));
+        let lighting = Lighting::new(LinearRgb::BLACK, vec![Light::directional(Normal::Z, LinearRgb::WHITE)]);
         let materials = [Material::MATTE_WHITE, Material::MATTE_WHITE, red];
-        let make = |m: &[Material]| ShadeTable::new(&table, LightingModel::Lambert, m, &lighting, Normal::Z);
+        let make = |m: &[Material]| ShadeTable::new(&table, m, &lighting, Normal::Z, Vec3::ZERO);
         let shades = make(&materials).unwrap();
         assert!(shades.entries()[0].diffuse.g > 0.0 && shades.entries()[1].diffuse.g == 0.0);
         assert_eq!(shades.entries()[2].diffuse, LinearRgb::new(1.0, 0.0, 0.0));
+        assert_eq!(shades.colors().collect::<Vec<_>>()[2], LinearRgb::new(1.0, 0.0, 0.0));
+        assert!((shades.intensities().last().unwrap() - 0.2126).abs() < 1e-6);
         assert!(make(&materials[..2]).is_err());
     }
 }

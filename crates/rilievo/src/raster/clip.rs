@@ -6,9 +6,6 @@
 
 use glam::DVec4;
 
-/// Clip coordinates may reach this many half-pictures from the centre before the triangle is cut.
-const GUARD_BAND: f64 = 8.0;
-
 /// A corner of a clipped triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
@@ -22,22 +19,24 @@ pub(super) struct Corner {
 const MAX_CORNERS: usize = 9;
 
 /// The part of a triangle inside the clip volume, as a convex polygon of 0 or 3 … 9 corners in the same orientation.
-pub(super) fn clip(triangle: [DVec4; 3]) -> Vec<Corner> {
+///
+/// Clip coordinates x and y may reach `guard_band` times w before the triangle is cut there.
+pub(super) fn clip(triangle: [DVec4; 3], guard_band: f64) -> Vec<Corner> {
     let mut polygon: Vec<Corner> = Vec::with_capacity(MAX_CORNERS);
     for (i, position) in triangle.into_iter().enumerate() {
         let mut weights = [0.0; 3];
         weights[i] = 1.0;
         polygon.push(Corner { position, weights });
     }
-    let planes: [fn(DVec4) -> f64; 6] = [
-        |p| p.z,
-        |p| p.w - p.z,
-        |p| GUARD_BAND * p.w - p.x,
-        |p| GUARD_BAND * p.w + p.x,
-        |p| GUARD_BAND * p.w - p.y,
-        |p| GUARD_BAND * p.w + p.y,
-    ];
-    for plane in planes {
+    let distance = |plane: usize, p: DVec4| match plane {
+        0 => p.z,
+        1 => p.w - p.z,
+        2 => guard_band * p.w - p.x,
+        3 => guard_band * p.w + p.x,
+        4 => guard_band * p.w - p.y,
+        _ => guard_band * p.w + p.y,
+    };
+    for plane in (0..6).map(|i| move |p| distance(i, p)) {
         if polygon.iter().all(|c| plane(c.position) >= 0.0) {
             continue;
         }
@@ -79,15 +78,15 @@ mod tests {
     fn inside_is_untouched_and_outside_vanishes() {
         let p = |x, y, z| DVec4::new(x, y, z, 1.0);
         let inside = [p(0.0, 0.0, 0.5), p(1.0, 0.0, 0.5), p(0.0, 1.0, 0.5)];
-        let kept = clip(inside);
+        let kept = clip(inside, 8.0);
         assert_eq!(kept.iter().map(|c| c.position).collect::<Vec<_>>(), inside);
-        assert!(clip(inside.map(|v| v - DVec4::Z)).is_empty());
+        assert!(clip(inside.map(|v| v - DVec4::Z), 8.0).is_empty());
     }
 
     #[test]
     fn weights_reproduce_the_cut_corners() {
         let t = [DVec4::new(-30.0, 0.3, 0.4, 1.0), DVec4::new(9.0, 22.0, 0.5, 1.2), DVec4::new(0.1, -0.2, 0.5, 1.0)];
-        let polygon = clip(t);
+        let polygon = clip(t, 8.0);
         assert!(polygon.len() > 3);
         for c in polygon {
             let sum = t[0] * c.weights[0] + t[1] * c.weights[1] + t[2] * c.weights[2];
@@ -101,7 +100,7 @@ mod tests {
         let (a, b) = (DVec4::new(0.3, 0.1, 0.7, 1.3), DVec4::new(-0.9, 0.77, -0.31, 0.2));
         let new_corner = |t: [DVec4; 3]| {
             let on_edge = |c: &Corner| c.position.z.abs() < 1e-12 && c.weights[2] == 0.0;
-            clip(t).into_iter().find(on_edge).unwrap().position
+            clip(t, 8.0).into_iter().find(on_edge).unwrap().position
         };
         let one = new_corner([a, b, DVec4::new(0.5, 0.5, 0.5, 1.0)]);
         let two = new_corner([b, a, DVec4::new(-0.5, -0.5, 0.9, 1.0)]);

@@ -3,9 +3,8 @@
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::mip::MipChain;
-use crate::raster::exact::Exact;
+use crate::raster::reference::{Exact, Table};
 use crate::raster::scene::{Detail, Method, Object, Scene};
-use crate::raster::table::Table;
 use crate::raster::texture::TextureFilter;
 
 /// The shading of one object for one frame.
@@ -27,17 +26,19 @@ pub struct Frame<'a> {
 /// [`Error::Missing`] where an object lacks what its map or the method needs, [`Error::IndexRange`] if a map names a
 /// material that is not there.
 pub fn prepare<'a>(scene: &'a Scene<'a>, method: Method, filter: TextureFilter) -> Result<Frame<'a>> {
-    let shading = |object: &'a Object<'a>| {
-        check(object)?;
-        let lighting = scene.lighting.to_object(&object.pose);
-        let eye = object.pose.point_to_object(scene.camera.eye());
-        Ok(match method {
-            Method::Table => Shading::Table(Table::new(object, &lighting, eye)?),
-            Method::Exact => Shading::Exact(Exact::new(object, lighting, eye)),
-        })
-    };
-    let shadings = scene.objects.iter().map(shading).collect::<Result<_>>()?;
+    let shadings = scene.objects.iter().map(|object| shading(scene, object, method)).collect::<Result<_>>()?;
     Ok(Frame { scene, shadings, filter })
+}
+
+/// The shading of one object of a scene.
+pub(super) fn shading<'a>(scene: &Scene<'_>, object: &'a Object<'a>, method: Method) -> Result<Shading<'a>> {
+    check(object)?;
+    let lighting = scene.lighting.to_object(&object.pose);
+    let eye = object.pose.point_to_object(scene.camera.eye());
+    Ok(match method {
+        Method::Table => Shading::Table(Table::new(object, &lighting, eye)?),
+        Method::Exact => Shading::Exact(Exact::new(object, lighting, eye)),
+    })
 }
 
 fn check(object: &Object<'_>) -> Result<()> {

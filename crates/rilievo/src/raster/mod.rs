@@ -12,10 +12,10 @@
 //! let camera = surface::Camera::orbit(mesh.bounding_sphere(), 0.0, 0.3, 1.1, 0.6, 1.0)?;
 //! let scene = raster::Scene {
 //!     objects: vec![object],
-//!     lighting: light::Lighting {
-//!         ambient: LinearRgb::gray(0.05),
-//!         lights: vec![light::DirectionalLight { direction: Normal::X, color: LinearRgb::WHITE }],
-//!     },
+//!     lighting: light::Lighting::new(
+//!         LinearRgb::gray(0.05),
+//!         vec![light::Light::directional(Normal::X, LinearRgb::WHITE)],
+//!     ),
 //!     camera,
 //! };
 //! let frame = raster::prepare(&scene, raster::Method::Exact, raster::TextureFilter::Trilinear)?;
@@ -26,16 +26,17 @@
 //! ```
 
 mod clip;
-mod draw;
-mod exact;
 mod frame;
+mod project;
+mod reference;
 mod scene;
-mod table;
 mod target;
 mod texture;
+pub mod tile;
+pub mod vectors;
 
-pub use draw::draw;
 pub use frame::{Frame, prepare};
+pub use reference::draw;
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::Target;
 pub use texture::TextureFilter;

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, Vec4};
 use crate::color::LinearRgb;
 use crate::grid::Edges;
 use crate::indexed::QuantizedMap;
-use crate::light::{Lighting, LightingModel, Material};
+use crate::light::{Blend, Lighting, Material};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Tangent, World};
 use crate::pose::Pose;
@@ -64,17 +64,17 @@ pub struct Object<'a> {
     /// Wrapped maps meet their opposite border there. Any other choice keeps each copy of a map to itself, as it was
     /// bent by [`crate::surface::deflect_heights`] with the same edges.
     pub edges: Edges,
-    /// How it answers light.
-    pub model: LightingModel,
+    /// How light and base colour meet.
+    pub blend: Blend,
     /// Whether back faces are drawn too, with their normals reversed, as glTF has it.
     pub double_sided: bool,
 }
 
 impl<'a> Object<'a> {
-    /// An object at the origin of the world, without a base colour, its maps wrapped, lit by the default model, back faces hidden.
+    /// An object at the origin of the world, without a base colour, its maps wrapped, light added up, back faces hidden.
     pub fn new(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Self {
-        let (pose, model) = (Pose::IDENTITY, LightingModel::default());
-        Self { mesh, pose, detail, base_color: None, materials, edges: Edges::Wrap, model, double_sided: false }
+        let (pose, blend) = (Pose::IDENTITY, Blend::default());
+        Self { mesh, pose, detail, base_color: None, materials, edges: Edges::Wrap, blend, double_sided: false }
     }
 }
 

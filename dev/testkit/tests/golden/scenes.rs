@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use rilievo::color::Picture;
 use rilievo::height::{Filter, HeightMap, to_normals};
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable, relight};
+use rilievo::light::{Blend, Light, Lighting, Material, ShadeTable, relight};
 use rilievo::normal::normal_levels;
 use rilievo::normal::{DitherU8, encode_map_u8};
 use rilievo::progress::Silent;
@@ -30,8 +30,7 @@ pub(crate) enum Shading {
 
 fn lighting<S: Space>() -> Lighting<S> {
     let direction = Normal::new(Vec3::new(-1.0, 0.8, 1.2)).unwrap();
-    let lights = vec![DirectionalLight { direction, color: LinearRgb::WHITE }];
-    Lighting { ambient: LinearRgb::gray(0.06), lights }
+    Lighting::new(LinearRgb::gray(0.06), vec![Light::directional(direction, LinearRgb::WHITE)])
 }
 
 fn camera(mesh: &Mesh, azimuth_deg: f32, elevation_deg: f32) -> Camera {
@@ -40,8 +39,7 @@ fn camera(mesh: &Mesh, azimuth_deg: f32, elevation_deg: f32) -> Camera {
 }
 
 fn object<'a>(mesh: &'a Mesh, detail: Detail<'a>, materials: &'a [Material]) -> Object<'a> {
-    let model = LightingModel::BlinnPhong;
-    Object { model, ..Object::new(mesh, detail, materials) }
+    Object::new(mesh, detail, materials)
 }
 
 fn render(object: Object<'_>, camera: Camera, method: Method, (width, height): (u32, u32)) -> Picture {
@@ -139,10 +137,10 @@ pub(crate) fn flat_map() -> QuantizedMap<Tangent> {
 /// The flat map lit by its table: the raised parts are of a red, glossy material.
 pub(crate) fn flat_relit() -> Picture {
     let map = flat().map;
-    let red = Material { diffuse: LinearRgb::new(0.7, 0.1, 0.05), specular: LinearRgb::gray(0.4), shininess: 30.0 };
+    let red = Material::blinn_phong(LinearRgb::new(0.7, 0.1, 0.05), LinearRgb::gray(0.4), 30.0);
     let materials = [Material::MATTE_WHITE, red];
-    let shades = ShadeTable::new(map.table(), LightingModel::BlinnPhong, &materials, &lighting(), Normal::Z).unwrap();
-    relight(&map, &shades, None).unwrap()
+    let shades = ShadeTable::new(map.table(), &materials, &lighting(), Normal::Z, Vec3::ZERO).unwrap();
+    relight(&map, &shades, None, Blend::Add).unwrap()
 }
 
 fn cube_of(width: u32) -> (Mesh, QuantizedMap<ObjectSpace>) {

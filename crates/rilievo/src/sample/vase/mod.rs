@@ -37,18 +37,17 @@ pub const GLAZE: u8 = 1;
 
 /// [`CLAY`] and [`GLAZE`] for use over [`VaseMaps::color`]: reflectances that leave the map's colours as they are.
 pub fn materials_over_color() -> [Material; 2] {
-    [
-        Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::gray(0.035), shininess: 9.0 },
-        Material { diffuse: LinearRgb::WHITE, specular: LinearRgb::new(0.50, 0.48, 0.45), shininess: 48.0 },
-    ]
+    [glossy(LinearRgb::WHITE, CLAY), glossy(LinearRgb::WHITE, GLAZE)]
 }
 
 /// [`CLAY`] and [`GLAZE`] with their own colours, for use without a colour map: a table of (normal, material) pairs
 /// is then the whole appearance, as in fig. 10 of Tarini et al. 2000.
 pub fn materials_colored() -> [Material; 2] {
-    let [clay, glaze] = materials_over_color();
-    [
-        Material { diffuse: LinearRgb::from_srgb(maps::CLAY_SRGB), ..clay },
-        Material { diffuse: LinearRgb::from_srgb(maps::GLAZE_SRGB), ..glaze },
-    ]
+    [glossy(LinearRgb::from_srgb(maps::CLAY_SRGB), CLAY), glossy(LinearRgb::from_srgb(maps::GLAZE_SRGB), GLAZE)]
+}
+
+fn glossy(diffuse: LinearRgb, material: u8) -> Material {
+    let (specular, shininess) =
+        if material == CLAY { (LinearRgb::gray(0.035), 9.0) } else { (LinearRgb::new(0.50, 0.48, 0.45), 48.0) };
+    Material::blinn_phong(diffuse, specular, shininess)
 }

@@ -3,10 +3,11 @@
 use glam::{DVec2, DVec4, Vec2, Vec3, Vec4};
 
 use crate::color::LinearRgb;
-use crate::fill::Triangle;
+use crate::fill::{SUBPIXEL_BITS, Triangle};
 use crate::par;
 use crate::raster::clip::{Corner, clip};
 use crate::raster::frame::{Frame, Shading};
+use crate::raster::project::Projection;
 use crate::raster::scene::{Fragment, Object};
 use crate::raster::target::{Pixel, Target};
 use crate::raster::texture::{Footprint, Sampling, Taps};
@@ -43,7 +44,8 @@ pub fn draw(frame: &Frame<'_>, target: &mut Target) {
     }
 }
 
-fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
+/// The light that leaves a fragment.
+pub(in crate::raster) fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampling: Sampling) -> LinearRgb {
     let shade = match shading {
         Shading::Table(table) => table.shade(fragment, sampling),
         Shading::Exact(exact) => exact.shade(fragment, sampling),
@@ -53,7 +55,7 @@ fn color(object: &Object<'_>, shading: &Shading<'_>, fragment: &Fragment, sampli
             .iter()
             .fold(LinearRgb::BLACK, |sum, tap| sum + base.levels.levels()[tap.level][(tap.x, tap.y)] * tap.weight)
     });
-    shade.over(base)
+    shade.over(base, object.blend)
 }
 
 /// A clipped, projected triangle.
@@ -72,18 +74,16 @@ struct ScreenTriangle {
 /// Transforms, clips and projects all triangles of an object; drops what is behind, outside, or turned away.
 fn set_up(object: &Object<'_>, frame: &Frame<'_>, (width, height): (u32, u32)) -> Vec<ScreenTriangle> {
     let mesh = object.mesh;
-    let view_projection = frame.scene.camera.view_projection(width as f32 / height as f32);
-    let to_clip = |p: &Vec3| (view_projection * object.pose.point_to_world(*p).extend(1.0)).as_dvec4();
+    let projection = Projection::new(&frame.scene.camera, &object.pose, (width, height));
     // Per vertex, not per corner: triangles that share a vertex must see it at the same bits.
-    let positions: Vec<DVec4> = mesh.positions().iter().map(to_clip).collect();
+    let positions: Vec<DVec4> = mesh.positions().iter().map(|&p| projection.to_clip(p).as_dvec4()).collect();
     let to_screen = |p: DVec4| {
-        let x = (p.x / p.w * 0.5 + 0.5) * f64::from(width);
-        let y = (0.5 - p.y / p.w * 0.5) * f64::from(height);
-        DVec2::new(x, y)
+        let vertex = projection.to_screen(p.as_vec4());
+        DVec2::new(f64::from(vertex.x), f64::from(vertex.y)) / f64::from(1 << SUBPIXEL_BITS)
     };
     let mut out = Vec::new();
     for &vertices in mesh.triangles() {
-        let polygon = clip(vertices.map(|v| positions[v as usize]));
+        let polygon = clip(vertices.map(|v| positions[v as usize]), projection.guard_band());
         for i in 2..polygon.len() {
             let corners = [polygon[0], polygon[i - 1], polygon[i]];
             let screen = corners.map(|c| to_screen(c.position));

@@ -10,7 +10,7 @@ use crate::raster::scene::{Detail, Fragment, Object};
 use crate::raster::texture::{Sampling, Taps};
 
 /// An index map and its lit tables (Tarini et al. 2000, § 5).
-pub(super) struct Table<'a> {
+pub(in crate::raster) struct Table<'a> {
     map: &'a QuantizedMap<ObjectSpace>,
     front: ShadeTable,
     /// For the reversed normals of back faces, if they are drawn.
@@ -19,15 +19,16 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// Lights the tables for an eye at `eye` in object space.
-    pub(super) fn new(object: &Object<'a>, lighting: &Lighting<ObjectSpace>, eye: Vec3) -> Result<Self> {
+    pub(in crate::raster) fn new(object: &Object<'a>, lighting: &Lighting<ObjectSpace>, eye: Vec3) -> Result<Self> {
         let Detail::Indexed(map) = object.detail else {
             let remedy =
                 "the table method needs a quantised object-space map; quantise the normal map, or use the exact method";
             return Err(Error::Missing { what: "index map", remedy });
         };
         // One view direction for the whole object: from its middle, where the error is shared out evenly.
-        let view = Normal::new_or(eye - object.mesh.bounding_sphere().0, Normal::Z);
-        let light = |table: &NormalTable<_>| ShadeTable::new(table, object.model, object.materials, lighting, view);
+        let middle = object.mesh.bounding_sphere().0;
+        let view = Normal::new_or(eye - middle, Normal::Z);
+        let light = |table: &NormalTable<_>| ShadeTable::new(table, object.materials, lighting, view, middle);
         let front = light(map.table())?;
         let back = if object.double_sided {
             let reversed = map.table().normals().iter().map(|n| Normal::from_unit(-n.vec())).collect();
@@ -38,8 +39,18 @@ impl<'a> Table<'a> {
         Ok(Self { map, front, back })
     }
 
+    /// The shades of front faces.
+    pub(in crate::raster) fn front(&self) -> &ShadeTable {
+        &self.front
+    }
+
+    /// The shades of back faces, if they are drawn.
+    pub(in crate::raster) fn back(&self) -> Option<&ShadeTable> {
+        self.back.as_ref()
+    }
+
     /// Looks up each texel, then filters the colours: indices are never averaged.
-    pub(super) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
+    pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let levels = self.map.indices();
         let table = self.back.as_ref().filter(|_| fragment.back_facing).unwrap_or(&self.front);
         Taps::gather(levels, sampling, &fragment.footprint).iter().fold(Shade::default(), |sum, tap| {

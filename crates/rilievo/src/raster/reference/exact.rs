@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::light::{Lighting, LightingModel, Material, Shade, shade};
+use crate::light::{Lighting, Material, Shade, shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Space};
 use crate::raster::scene::{Detail, Fragment, Object};
@@ -10,21 +10,30 @@ use crate::raster::texture::{Footprint, Sampling, Taps};
 use crate::surface::Frame;
 
 /// Filters the normals, normalises, and evaluates the lighting model with the pixel's own view direction.
-pub(super) struct Exact<'a> {
+pub(in crate::raster) struct Exact<'a> {
     detail: Detail<'a>,
     materials: &'a [Material],
-    model: LightingModel,
     lighting: Lighting<ObjectSpace>,
     eye: Vec3,
 }
 
 impl<'a> Exact<'a> {
     /// For an eye at `eye` in object space.
-    pub(super) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
-        Self { detail: object.detail, materials: object.materials, model: object.model, lighting, eye }
+    pub(in crate::raster) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Self {
+        Self { detail: object.detail, materials: object.materials, lighting, eye }
     }
 
-    pub(super) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
+    /// The light, in object space.
+    pub(in crate::raster) fn lighting(&self) -> &Lighting<ObjectSpace> {
+        &self.lighting
+    }
+
+    /// The eye, in object space.
+    pub(in crate::raster) fn eye(&self) -> Vec3 {
+        self.eye
+    }
+
+    pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let smooth = Normal::new_or(fragment.normal, Normal::Z);
         let view = Normal::new_or(self.eye - fragment.position, smooth);
         let frame = Frame::from_mikk(fragment.normal, fragment.tangent);
@@ -37,7 +46,8 @@ impl<'a> Exact<'a> {
             };
             let normal = if fragment.back_facing { Normal::from_unit(-normal.vec()) } else { normal };
             let material = &self.materials[usize::from(part.material)];
-            total = total.add_weighted(shade(self.model, material, &self.lighting, normal, view), part.weight);
+            let shade = shade(material, &self.lighting, normal, view, fragment.position);
+            total = total.add_weighted(shade, part.weight);
         }
         total
     }

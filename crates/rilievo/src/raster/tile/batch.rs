@@ -1,0 +1,197 @@
+//! One object in one tile: blocks of pixels that its triangles own, shaded by whatever method.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16, mask32x16, u32x16};
+
+use super::buffer::{BLOCK, BLOCKS, Tile};
+use super::cover::{Bounds, COUNT, Edges, columns, pixels};
+use super::front::{Chunk, Front, Triangle, Vertex};
+use super::planes::{Plane, Sides};
+use crate::fill::SUBPIXEL_BITS;
+use crate::raster::project::ScreenVertex;
+use crate::simd::three;
+
+/// A way to shade, over `N` attributes of each vertex.
+pub(super) trait Shader<const N: usize>: Sync {
+    /// What is the same over a triangle.
+    type SetUp;
+
+    /// What is wanted of each vertex. It is interpolated over the screen as it is: divided by w what belongs to the surface.
+    fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; N];
+
+    /// Prepares a triangle that owns a pixel of a tile.
+    fn set_up(&self, triangle: &Seen<'_, N>) -> Self::SetUp;
+
+    /// Encoded colours of a block. Lanes outside of the triangle may be anything.
+    fn shade<S: Simd>(&self, simd: S, set_up: &Self::SetUp, block: &Block<S>) -> u32x16<S>;
+}
+
+/// A triangle with a visible pixel.
+pub(super) struct Seen<'a, const N: usize> {
+    pub(super) triangle: &'a Triangle,
+    pub(super) corners: [ScreenVertex; 3],
+    pub(super) attributes: [&'a [f32; N]; 3],
+    pub(super) sides: Sides,
+    chunk: &'a Chunk,
+}
+
+impl<const N: usize> Seen<'_, N> {
+    /// Weights of corner `i` in the mesh's triangle, if clipping made it.
+    pub(super) fn cut_weights(&self, i: usize) -> Option<[f32; 3]> {
+        Triangle::cut(self.triangle.corners[i]).map(|cut| self.chunk.cut[cut].weights)
+    }
+}
+
+/// Sixteen pixels.
+pub(super) struct Block<S: Simd> {
+    /// Where their centres are, relative to the triangle's first corner, in pixels.
+    pub(super) x: f32x16<S>,
+    pub(super) y: f32x16<S>,
+    /// The pixels that will be seen.
+    pub(super) visible: mask32x16<S>,
+}
+
+/// What the picture wants of an object, whatever shades it.
+pub(super) trait Batch: Sync {
+    /// Whether the object may touch a tile.
+    fn touches(&self, number: usize) -> bool;
+
+    /// Draws the part in a tile, given by its number and its first pixel.
+    fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]);
+}
+
+/// An object on the screen and its shader.
+pub(super) struct Shaded<'a, Sh, const N: usize> {
+    pub(super) front: &'a Front,
+    pub(super) shader: Sh,
+}
+
+impl<Sh: Shader<N>, const N: usize> Batch for Shaded<'_, Sh, N> {
+    fn touches(&self, number: usize) -> bool {
+        self.front.chunks.iter().any(|chunk| !chunk.of_tile(number).is_empty())
+    }
+
+    fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]) {
+        dispatch!(level, simd => self.draw_lanes(simd, tile, number, origin));
+    }
+}
+
+impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
+    #[inline(always)]
+    fn draw_lanes<S: Simd>(&self, simd: S, tile: &mut Tile, number: usize, origin: [i32; 2]) {
+        for chunk in &self.front.chunks {
+            for &triangle in chunk.of_tile(number) {
+                self.draw_triangle(simd, chunk, &chunk.triangles[triangle as usize], tile, origin);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn draw_triangle<S: Simd>(
+        &self,
+        simd: S,
+        chunk: &Chunk,
+        triangle: &Triangle,
+        tile: &mut Tile,
+        origin: [i32; 2],
+    ) {
+        let corners = triangle.corners.map(|corner| match Triangle::cut(corner) {
+            None => self.front.vertices[corner as usize],
+            Some(cut) => chunk.cut[cut].screen,
+        });
+        // Of the picture it is already known that something is on it.
+        let Some(bounds) = Bounds::of(&corners, [i32::MAX; 2]) else { return };
+        let bounds = bounds.in_tile(origin);
+        let (edges, sides) = (Edges::new(&corners, origin), Sides::new(&corners));
+        let depth = sides.plane(corners.map(|c| c.z));
+        let over_block = edges.over_block(simd);
+        let [lane_x, lane_y] = pixels(simd);
+        // From the first corner to the centre of the tile's first pixel.
+        let to_corner = [origin[0] - (corners[0].x >> SUBPIXEL_BITS), origin[1] - (corners[0].y >> SUBPIXEL_BITS)];
+        let fraction = |v: i32| (v & ((1 << SUBPIXEL_BITS) - 1)) as f32 / (1 << SUBPIXEL_BITS) as f32;
+        let start = [
+            to_corner[0] as f32 + (0.5 - fraction(corners[0].x)),
+            to_corner[1] as f32 + (0.5 - fraction(corners[0].y)),
+        ];
+        let nearest_corner = BlockReach::new(&depth);
+        let in_columns = columns(bounds.x);
+        let wide = bounds.x[1] / BLOCK as i32 > bounds.x[0] / BLOCK as i32 + 1;
+        let mut set_up = None;
+        for by in bounds.y[0] / BLOCK as i32..=bounds.y[1] / BLOCK as i32 {
+            let (some, all) = if wide { edges.row(simd, by) } else { (u32::MAX, 0) };
+            let y0 = start[1] + (by * BLOCK as i32) as f32;
+            let in_front = nearest_corner.before(simd, &depth, start[0], y0, tile.farthest(simd, by as usize));
+            let mut left = some & in_columns & in_front;
+            let y = lane_y + y0;
+            while left != 0 {
+                let bx = left.trailing_zeros() as i32;
+                left &= left - 1;
+                let x0 = start[0] + (bx * BLOCK as i32) as f32;
+                let x = lane_x + x0;
+                let z = depth.at(simd, x, y);
+                let block = by as usize * BLOCKS + bx as usize;
+                let before = tile.depth(simd, block);
+                let mut visible = z.simd_lt(before);
+                if all >> bx & 1 == 0 {
+                    visible = visible & edges.inside(simd, &over_block, bx, by);
+                }
+                let bits = visible.to_bitmask();
+                if bits == 0 {
+                    continue;
+                }
+                let farthest = (bits == 0xffff).then(|| nearest_corner.farthest(&depth, x0, y0));
+                tile.set_depth(block, visible.select(z, before), farthest);
+                if set_up.is_none() {
+                    let attributes = three!(i => self.attributes_of(chunk, triangle.corners[i]));
+                    set_up = Some(self.shader.set_up(&Seen { triangle, corners, attributes, sides, chunk }));
+                }
+                let Some(set_up) = &set_up else { continue };
+                let color = self.shader.shade(simd, set_up, &Block { x, y, visible });
+                let color = if bits == 0xffff { color } else { visible.select(color, tile.color(simd, block)) };
+                tile.set_color(block, color);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn attributes_of<'b>(&'b self, chunk: &'b Chunk, corner: u32) -> &'b [f32; N] {
+        let (values, at) = match Triangle::cut(corner) {
+            None => (&self.front.attributes, corner as usize),
+            Some(cut) => (&chunk.cut_attributes, cut),
+        };
+        &values.as_chunks::<N>().0[at]
+    }
+}
+
+/// How far depth reaches within a block from its first pixel: down and up.
+struct BlockReach {
+    nearer: f32,
+    farther: f32,
+}
+
+impl BlockReach {
+    fn new(depth: &Plane) -> Self {
+        let side = (BLOCK - 1) as f32;
+        Self {
+            nearer: side * (depth.dx.min(0.0) + depth.dy.min(0.0)),
+            farther: side * (depth.dx.max(0.0) + depth.dy.max(0.0)),
+        }
+    }
+
+    /// The blocks of a row that have a place in front of what is there, a bit for each; the first pixel is at (x, y).
+    #[inline(always)]
+    fn before<S: Simd>(&self, simd: S, depth: &Plane, x: f32, y: f32, farthest: f32x16<S>) -> u32 {
+        let first = depth.at_corner + depth.dx * x + depth.dy * y + self.nearer;
+        let step = depth.dx * BLOCK as f32;
+        let lanes = i32x16::load_array_ref(simd, &COUNT).to_float::<f32x16<S>>();
+        let nearest = lanes.mul_add(f32x16::splat(simd, step), f32x16::splat(simd, first));
+        // Depths are rounded differently by the pixel: some room, so that nothing is passed over that would be seen.
+        let room = f32x16::splat(simd, 1e-5);
+        (nearest - room).simd_lt(farthest).to_bitmask() as u32
+    }
+
+    /// No pixel of the block whose first pixel is at (x, y) is farther.
+    fn farthest(&self, depth: &Plane, x: f32, y: f32) -> f32 {
+        depth.at_corner + depth.dx * x + depth.dy * y + self.farther + 1e-5
+    }
+}

@@ -1,0 +1,242 @@
+//! The fast renderer: tiles of 64 × 64 pixels, blocks of 4 × 4, sixteen lanes.
+//!
+//! A frame runs in two steps. The [`front`] projects vertices sixteen at a time and sorts triangles into tiles; then each tile
+//! is drawn by itself, depth and colour in the nearest cache, and copied to the picture once. Within a tile a triangle is
+//! looked at row by row of blocks: which may have pixels inside, which lie inside altogether, which are hidden ([`cover`],
+//! [`batch`]). What is left is shaded sixteen pixels at a time by the method's room in [`shade`], and encoded there.
+//!
+//! One source serves every instruction set; which one is chosen once for each tile. Coverage is that of the reference to the
+//! pixel, by the same snapped vertices and the same whole numbers; colours are within a tolerance that
+//! `dev/testkit/tests/renderers.rs` states.
+//!
+//! - **Determinism:** class C; on one machine the same bits for any number of threads.
+
+mod batch;
+mod buffer;
+mod cover;
+mod front;
+mod maps;
+mod planes;
+mod shade;
+mod texture;
+
+pub use front::Skipped;
+
+use fearless_simd::Level;
+use glam::Vec2;
+
+use self::batch::{Batch, Shaded};
+use self::buffer::{TILE, Tile, word};
+use self::front::{Front, Tiles};
+use self::maps::{Map, Maps, detail_map};
+use self::shade::{Base, Exact, Filtered, Finish, General, Glossy, Nearest, Pixelwise, Relief, Shades};
+use self::texture::Look;
+use crate::color::{LinearRgb, Picture, Rgba8};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::light::Prepared;
+use crate::par;
+use crate::raster::frame::{Shading, shading};
+use crate::raster::project::{MAX_PICTURE_SIDE, Projection};
+use crate::raster::scene::{Detail, Method, Object, Scene};
+use crate::raster::texture::{Sampling, TextureFilter};
+
+/// What a frame is drawn with.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Options {
+    /// How normals become colours.
+    pub method: Method,
+    /// How a pixel gathers texels.
+    pub filter: TextureFilter,
+    /// What shows where nothing is drawn; transparent without it.
+    pub background: Option<LinearRgb>,
+}
+
+/// What came of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Drawn {
+    /// Pixels that something was drawn on.
+    pub covered_pixels: u64,
+    /// Triangles that were left out.
+    pub skipped: Skipped,
+}
+
+/// Draws frames, and keeps between them what need not be made anew: maps in the form that lanes read, memory.
+#[derive(Debug)]
+pub struct Renderer<'a> {
+    maps: Maps<'a>,
+    fronts: Vec<Front>,
+    level: Level,
+}
+
+impl Default for Renderer<'_> {
+    fn default() -> Self {
+        Self { maps: Maps::default(), fronts: Vec::new(), level: Level::new() }
+    }
+}
+
+impl<'a> Renderer<'a> {
+    /// A renderer that has seen nothing yet; it uses the best instruction set of the machine.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A renderer on a given instruction set: to compare them.
+    pub fn with_level(level: Level) -> Self {
+        Self { level, ..Self::default() }
+    }
+
+    /// Draws `scene` over all of `picture`.
+    ///
+    /// Triangles come in the order of the objects and their meshes; of two surfaces at exactly the same depth the first
+    /// stays.
+    ///
+    /// # Errors
+    /// As [`crate::raster::prepare`], and [`Error::Parameter`] for a picture with a side above [`MAX_PICTURE_SIDE`].
+    pub fn draw(&mut self, scene: &Scene<'a>, options: &Options, picture: &mut Picture) -> Result<Drawn> {
+        let size = picture.size();
+        if size.0.max(size.1) > MAX_PICTURE_SIDE {
+            let given = format_args!("{} × {}", size.0, size.1).to_string();
+            return Err(Error::parameter("picture size", given, format_args!("at most {MAX_PICTURE_SIDE} a side")));
+        }
+        for object in &scene.objects {
+            self.maps.read(object, options.filter);
+        }
+        self.fronts.resize_with(scene.objects.len(), Front::default);
+        let mut drawn = Drawn::default();
+        let (maps, level) = (&self.maps, self.level);
+        let mut batches: Vec<Box<dyn Batch + '_>> = Vec::with_capacity(scene.objects.len());
+        for (object, front) in scene.objects.iter().zip(&mut self.fronts) {
+            let projection = Projection::new(&scene.camera, &object.pose, size);
+            let place = Place { level, object, projection, size, front };
+            batches.push(choose(scene, options, maps, place, &mut drawn.skipped)?);
+        }
+        let background = word(options.background.map_or(Rgba8::default(), LinearRgb::to_srgb));
+        drawn.covered_pixels = draw_tiles(&batches, level, background, picture);
+        Ok(drawn)
+    }
+}
+
+fn draw_tiles(batches: &[Box<dyn Batch + '_>], level: Level, background: u32, picture: &mut Picture) -> u64 {
+    let tiles = Tiles::new(picture.size());
+    let width = picture.width() as usize;
+    let covered = std::sync::atomic::AtomicU64::new(0);
+    par::for_each_row(picture.texels_mut(), width * TILE, |row, pixels| {
+        let mut sum = 0;
+        let mut tile = Tile::new(background);
+        for column in 0..tiles.columns {
+            let origin = [column as usize * TILE, row * TILE];
+            let number = row * tiles.columns as usize + column as usize;
+            let mut touching = batches.iter().filter(|batch| batch.touches(number)).peekable();
+            if touching.peek().is_none() {
+                for row in pixels.chunks_mut(width) {
+                    let row: &mut [u32] = bytemuck::cast_slice_mut(&mut row[origin[0]..(origin[0] + TILE).min(width)]);
+                    row.fill(background);
+                }
+                continue;
+            }
+            tile.clear(background);
+            for batch in touching {
+                batch.draw(level, &mut tile, number, origin.map(|o| o as i32));
+            }
+            sum += tile.copy_to(pixels, width, origin[0]);
+        }
+        covered.fetch_add(sum, std::sync::atomic::Ordering::Relaxed);
+    });
+    covered.into_inner()
+}
+
+/// Where an object goes.
+struct Place<'f, 'o> {
+    level: Level,
+    object: &'o Object<'o>,
+    projection: Projection,
+    size: (u32, u32),
+    front: &'f mut Front,
+}
+
+impl<'f> Place<'f, '_> {
+    /// Projects and bins the object for a shader.
+    fn with<'s, Sh: batch::Shader<N> + 's, const N: usize>(
+        self,
+        shader: Sh,
+        skipped: &mut Skipped,
+    ) -> Box<dyn Batch + 's>
+    where
+        'f: 's,
+    {
+        let found = self.front.run(self.level, self.object, &self.projection, self.size, |v, w| shader.attributes(v, w));
+        skipped.add(found);
+        Box::new(Shaded { front: &*self.front, shader })
+    }
+}
+
+/// The shader of an object: one with lanes where there is one, the reference pixel by pixel otherwise.
+fn choose<'s>(
+    scene: &'s Scene<'_>,
+    options: &Options,
+    maps: &'s Maps<'_>,
+    place: Place<'s, 's>,
+    skipped: &mut Skipped,
+) -> Result<Box<dyn Batch + 's>> {
+    let object = place.object;
+    let look = |repeat| Look { filter: options.filter, edges: object.edges, repeat };
+    let read = |map: &Map<'_>| maps.find(map, options.filter).expect("invariant: all maps of the scene were read");
+    let base = object.base_color.map(|base| Base { texture: read(&Map::Colors(base.levels)), look: look(base.repeat) });
+    let finish = Finish { base, blend: object.blend };
+    let shading = shading(scene, object, options.method)?;
+    let map = detail_map(&object.detail).map(|map| read(&map));
+    match (shading, map) {
+        (Shading::Table(table), Some(indices)) => {
+            let (front, back) = (table.front(), table.back());
+            if options.filter == TextureFilter::Nearest && base.is_none() {
+                return Ok(place.with(Nearest::new(indices, look(Vec2::ONE), front, back, object.blend), skipped));
+            }
+            let shades = [Some(Shades::new(front)), back.map(Shades::new)];
+            Ok(place.with(Filtered { indices, look: look(Vec2::ONE), shades, finish }, skipped))
+        }
+        (Shading::Exact(exact), map) => {
+            let relief = match (object.detail, map) {
+                (Detail::Smooth, _) => Some(Relief::Smooth),
+                (Detail::Tangent { repeat, materials: None, .. }, Some(t)) => Some(Relief::Tangent(t, look(repeat))),
+                (Detail::Object { materials: None, .. }, Some(t)) => Some(Relief::Object(t, look(Vec2::ONE))),
+                (Detail::Indexed(map), Some(t)) if map.table().spans().len() == 1 => {
+                    let words = map.table().normals().iter().flat_map(|n| n.vec().to_array().map(f32::to_bits));
+                    Some(Relief::Indexed(t, look(Vec2::ONE), words.collect()))
+                }
+                _ => None,
+            };
+            let number = match object.detail {
+                Detail::Indexed(map) => map.table().spans().first().map_or(0, |span| usize::from(span.material)),
+                _ => 0,
+            };
+            let Some(relief) = relief else { return Ok(pixelwise(Shading::Exact(exact), place, options, skipped)) };
+            let (material, lighting, eye) = (&object.materials[number], exact.lighting(), exact.eye());
+            if let Some(answer) = Glossy::new(material, lighting, eye) {
+                return Ok(place.with(Exact { relief, answer, eye, finish }, skipped));
+            }
+            let answer = General { material: Prepared::new(material, lighting), eye };
+            Ok(place.with(Exact { relief, answer, eye, finish }, skipped))
+        }
+        (shading, _) => Ok(pixelwise(shading, place, options, skipped)),
+    }
+}
+
+fn pixelwise<'s>(
+    shading: Shading<'s>,
+    place: Place<'s, 's>,
+    options: &Options,
+    skipped: &mut Skipped,
+) -> Box<dyn Batch + 's> {
+    let object = place.object;
+    let sampling = Sampling { filter: options.filter, edges: object.edges, repeat: Vec2::ONE };
+    place.with(Pixelwise { object, shading, sampling }, skipped)
+}
+
+/// An empty picture to draw into.
+///
+/// # Errors
+/// [`Error::Size`] for an impossible size.
+pub fn empty_picture(width: u32, height: u32) -> Result<Picture> {
+    Grid::filled(width, height, Rgba8::default())
+}

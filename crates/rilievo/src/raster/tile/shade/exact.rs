@@ -1,0 +1,115 @@
+//! Normal, frame and view direction of every pixel.
+//!
+//! Nothing that is normalised in the end is divided by w: normal and tangent, and the way to the eye, are linear on the screen
+//! once divided by w at the vertices, and a factor that all three share is none for a direction. Only texture coordinates, the
+//! bitangent's share and the place for point lights need w itself.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x16, u32x16};
+use glam::Vec3;
+
+use super::glossy::{Answer, Lit};
+use super::{Finish, mean};
+use crate::raster::tile::batch::{Block, Seen, Shader};
+use crate::raster::tile::front::Vertex;
+use crate::raster::tile::planes::Planes;
+use crate::raster::tile::texture::{Footprint, Look, Texture, footprint};
+use crate::simd::{Vec3x16, cross, dot, gather, splat, three};
+
+/// Texture coordinates and 1/w, the way to the eye, normal, tangent, sign of the bitangent; up to whole vectors.
+const ATTRIBUTES: usize = 16;
+const EYE: usize = 3;
+const NORMAL: usize = 6;
+const TANGENT: usize = 9;
+const SIGN: usize = 12;
+
+/// Where a pixel's normal comes from.
+pub(in crate::raster::tile) enum Relief<'a> {
+    Smooth,
+    Tangent(&'a Texture, Look),
+    Object(&'a Texture, Look),
+    /// Indices, and x, y, z of each entry.
+    Indexed(&'a Texture, Look, Vec<u32>),
+}
+
+/// One material, whose light is evaluated by the pixel.
+pub(in crate::raster::tile) struct Exact<'a, A> {
+    pub(in crate::raster::tile) relief: Relief<'a>,
+    pub(in crate::raster::tile) answer: A,
+    pub(in crate::raster::tile) eye: Vec3,
+    pub(in crate::raster::tile) finish: Finish<'a>,
+}
+
+/// A triangle.
+pub(in crate::raster::tile) struct SetUp {
+    planes: Planes<ATTRIBUTES>,
+    /// Of the bitangent.
+    sign: f32,
+    back_facing: bool,
+}
+
+impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
+    type SetUp = SetUp;
+
+    fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
+        let [e, n, t] = [self.eye - vertex.position, vertex.normal, vertex.tangent.truncate()].map(|v| v * inv_w);
+        let uv = vertex.uv * inv_w;
+        let sign = vertex.tangent.w;
+        [uv.x, uv.y, inv_w, e.x, e.y, e.z, n.x, n.y, n.z, t.x, t.y, t.z, sign, 0.0, 0.0, 0.0]
+    }
+
+    #[inline(always)]
+    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> SetUp {
+        SetUp {
+            planes: seen.sides.planes(seen.attributes),
+            sign: seen.attributes[0][SIGN],
+            back_facing: seen.triangle.back_facing(),
+        }
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>) -> u32x16<S> {
+        let planes = &set_up.planes;
+        let at = footprint(simd, planes, 0, block.x, block.y);
+        let normal = self.normal(simd, set_up, block, &at);
+        let to_eye = planes.vector(simd, EYE, block.x, block.y);
+        let [diffuse, specular] = self.answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w });
+        self.finish.encode(simd, diffuse, specular, &at)
+    }
+}
+
+impl<A> Exact<'_, A> {
+    /// The normal under each pixel, not normalised.
+    #[inline(always)]
+    fn normal<S: Simd>(
+        &self,
+        simd: S,
+        set_up: &SetUp,
+        block: &Block<S>,
+        at: &Footprint<S>,
+    ) -> Vec3x16<S> {
+        let smooth = set_up.planes.vector(simd, NORMAL, block.x, block.y);
+        let sum = match &self.relief {
+            Relief::Smooth => smooth,
+            Relief::Tangent(texture, look) => {
+                let n = mean(simd, texture, look, at, #[inline(always)] |texel| texture.vector(simd, texel, true));
+                let tangent = set_up.planes.vector(simd, TANGENT, block.x, block.y);
+                // The cross product of two vectors that are both divided by w has one division too many.
+                let bitangent = cross(smooth, tangent);
+                let up = n[1] * (at.w * set_up.sign);
+                three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, smooth[k] * n[2])))
+            }
+            Relief::Object(texture, look) => {
+                mean(simd, texture, look, at, #[inline(always)] |texel| texture.vector(simd, texel, true))
+            }
+            Relief::Indexed(texture, look, normals) => mean(simd, texture, look, at, #[inline(always)] |texel| {
+                let entry = texture.index(simd, texel) * 3;
+                three!(k => gather(simd, normals, entry + k as u32).bitcast::<f32x16<S>>())
+            }),
+        };
+        // Where normals cancel, the mesh's own.
+        let gone = dot(sum, sum).simd_lt(splat(simd, 1e-20));
+        let sum = if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum };
+        if set_up.back_facing { three!(k => -sum[k]) } else { sum }
+    }
+}
