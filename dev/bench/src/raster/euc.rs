@@ -14,7 +14,7 @@ use std::collections::hash_map::Entry;
 
 /// A subject with what euc wants of it: three vertices for each triangle.
 struct Loaded {
-    subject: Subject,
+    subject: &'static Subject,
     corners: Vec<u32>,
     /// The normal map's bytes as vectors, decoded beforehand as a CPU program would.
     normals: Vec<Vec3>,
@@ -28,7 +28,7 @@ pub(super) struct Euc {
 
 impl Loaded {
     fn new(size: Size) -> Result<Self> {
-        let subject = Subject::new(size)?;
+        let subject = Subject::get(size)?;
         let corners = subject.mesh.triangles().as_flattened().to_vec();
         let normals = subject.maps.normals.base().texels().iter().map(|n| n.vec()).collect();
         Ok(Self { subject, corners, normals })
@@ -105,7 +105,7 @@ impl Pipeline for Exact<'_> {
     fn frag(&self, v: &Framed) -> u32 {
         let m = self.loaded.normals[texel(v.uv)];
         let n = (v.tangent * m.x + v.bitangent * m.y + v.normal * m.z).normalize();
-        let l = self.light;
+        let l = (self.light - v.position).normalize();
         let h = (l + (self.eye - v.position).normalize()).normalize();
         let cosine = n.dot(l);
         let s = n.dot(h).max(LEAST);
@@ -194,8 +194,8 @@ impl Renderer for Euc {
         match job.shading {
             Shading::Exact => {
                 let encode = encode_table();
-                let colors = scene::light_colors(&loaded.subject).map(|[r, g, b, _]| Vec3::new(r, g, b));
-                let (eye, light) = (view.camera.eye(), view.light.vec());
+                let colors = scene::light_colors().map(|[r, g, b, _]| Vec3::new(r, g, b));
+                let (eye, light) = (view.camera.eye(), view.light);
                 let pipeline = Exact { loaded, to_clip, eye, light, colors, encode: &encode };
                 draw_with(&pipeline, &loaded.corners, color, depth, frames);
             }

@@ -1,32 +1,28 @@
 //! Our own renderer, behind the same door as the others. What a frame is stands here and nowhere else.
 
 use super::renderer::{Job, Renderer, Sampling, Shading};
-use super::scene::{REPEAT, SIDE, Size, Subject, View};
-use anyhow::{Context, Result, bail};
-use rilievo::color::Picture;
-use rilievo::raster::{self, Detail, Method, Object, Scene, Target, TextureFilter};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use super::scene::{REPEAT, SIDE, Subject, View};
+use anyhow::{Result, bail};
+use rilievo::Grid;
+use rilievo::color::{Picture, Rgba8};
+use rilievo::raster::tile::{Options, Renderer as Tiles};
+use rilievo::raster::{Detail, Method, Object, Scene, TextureFilter};
 
 pub(super) struct Ours {
-    subjects: HashMap<Size, Subject>,
-    target: Target,
-    picture: Option<Picture>,
+    tiles: Tiles<'static>,
+    picture: Picture,
 }
 
 impl Ours {
     pub(super) fn new() -> Result<Self> {
-        Ok(Self { subjects: HashMap::new(), target: Target::new(SIDE, SIDE)?, picture: None })
+        Ok(Self { tiles: Tiles::new(), picture: Grid::filled(SIDE, SIDE, Rgba8::default())? })
     }
 }
 
 impl Renderer for Ours {
-    /// A frame is the lighting of the table where there is one, clearing, drawing, and encoding to 8-bit sRGB.
+    /// A frame is the lighting of the table where there is one, and drawing all over a picture of 8-bit colours.
     fn draw(&mut self, job: Job, view: usize, frames: usize) -> Result<()> {
-        let subject = match self.subjects.entry(job.size) {
-            Entry::Occupied(entry) => entry.into_mut(),
-            Entry::Vacant(entry) => entry.insert(Subject::new(job.size)?),
-        };
+        let subject = Subject::get(job.size)?;
         let (method, detail) = match job.shading {
             Shading::Exact => {
                 (Method::Exact, Detail::Tangent { normals: &subject.maps.normals, repeat: REPEAT, materials: None })
@@ -45,15 +41,14 @@ impl Renderer for Ours {
             lighting: view.lighting(),
             camera: view.camera,
         };
+        let options = Options { method, filter, background: None };
         for _ in 0..frames {
-            self.target.clear();
-            raster::draw(&raster::prepare(&scene, method, filter)?, &mut self.target);
-            self.picture = Some(self.target.resolve(1, None)?);
+            self.tiles.draw(&scene, &options, &mut self.picture)?;
         }
         Ok(())
     }
 
     fn picture(&mut self) -> Result<Picture> {
-        self.picture.clone().context("nothing was drawn")
+        Ok(self.picture.clone())
     }
 }

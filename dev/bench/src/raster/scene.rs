@@ -4,13 +4,13 @@ use anyhow::{Context, Result};
 use glam::{Mat4, Vec2, Vec3};
 use rilievo::height::{Filter, HeightMap, to_normals};
 use rilievo::indexed::QuantizedMap;
-use rilievo::light::{DirectionalLight, Lighting, LightingModel, Material, ShadeTable};
+use rilievo::light::{Light, Lighting, Material, ShadeTable};
 use rilievo::normal::{decode_u8, encode_u8};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Options, quantize};
 use rilievo::surface::{Camera, Deflect, Mesh, deflect_normals, shapes};
-use rilievo::{Edges, Grid, LinearRgb, MipChain, Normal, Object, Rgba8, Tangent, World};
-use std::cell::OnceCell;
+use rilievo::{Edges, Grid, LinearRgb, MipChain, Normal, Object, Rgba8, Space, Tangent};
+use std::sync::OnceLock;
 
 /// Width and height of the pictures.
 pub(super) const SIDE: u32 = 1024;
@@ -22,6 +22,11 @@ pub(super) const ENTRIES: u32 = 2048;
 pub(super) const REPEAT: Vec2 = Vec2::new(4.0, 2.0);
 /// The highlight's exponent; the peers' shaders have it by five squarings.
 const SHININESS: f32 = 32.0;
+const DIFFUSE: LinearRgb = LinearRgb::new(0.75, 0.45, 0.3);
+const SPECULAR: LinearRgb = LinearRgb::gray(0.5);
+/// Light from everywhere, and that of the lamp.
+const AMBIENT: f32 = 0.08;
+const LIGHT: f32 = 0.92;
 /// Height of the relief as a fraction of the map's width: slopes up to 45° and more.
 const DEPTH: f32 = 0.04;
 /// Where the camera stands, azimuth and elevation in radians.
@@ -71,29 +76,36 @@ pub(super) struct Subject {
     pub(super) maps: Maps,
     pub(super) materials: [Material; 1],
     /// Only made for those who ask: seconds of work.
-    indexed: OnceCell<QuantizedMap<Object>>,
+    indexed: OnceLock<QuantizedMap<Object>>,
 }
 
 /// From where it is seen and lit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     pub(super) camera: Camera,
-    /// From the object to the light, of unit length.
-    pub(super) light: Normal<World>,
+    /// Where the light is. It does not fall off.
+    pub(super) light: Vec3,
 }
 
 impl Subject {
-    pub(super) fn new(size: Size) -> Result<Self> {
+    /// The one of this size; made when first asked for, and shared by all who draw in this process.
+    pub(super) fn get(size: Size) -> Result<&'static Self> {
+        static MADE: [OnceLock<Subject>; Size::ALL.len()] = [const { OnceLock::new() }; Size::ALL.len()];
+        let place = &MADE[size as usize];
+        if place.get().is_none() {
+            // Whoever else was quicker made the same.
+            drop(place.set(Self::new(size)?));
+        }
+        place.get().context("the subject was not kept")
+    }
+
+    fn new(size: Size) -> Result<Self> {
         let mesh = shapes::torus(size.cells(), size.cells(), 1.0, 0.45)?.with_tangents()?;
         let height = HeightMap::new(crate::inputs::rough(MAP_SIDE)?, DEPTH)?;
         let codes = to_normals(&height, Filter::Plane4, Edges::Wrap).map(|&n| encode_u8(n));
         let normals = MipChain::single(codes.map(|&c| decode_u8(c)));
-        let materials = [Material {
-            diffuse: LinearRgb::new(0.75, 0.45, 0.3),
-            specular: LinearRgb::gray(0.5),
-            shininess: SHININESS,
-        }];
-        Ok(Self { mesh, maps: Maps { codes, normals }, materials, indexed: OnceCell::new() })
+        let materials = [Material::blinn_phong(DIFFUSE, SPECULAR, SHININESS)];
+        Ok(Self { mesh, maps: Maps { codes, normals }, materials, indexed: OnceLock::new() })
     }
 
     /// The object-space map of the whole torus, quantised.
@@ -110,11 +122,10 @@ impl Subject {
 
     /// The table lit for a view, as colours of a picture.
     pub(super) fn lit_table(&self, view: &View) -> Result<Vec<Rgba8>> {
-        // A torus at the origin of a world that is its own space.
-        let lighting = view.lighting::<Object>();
+        // The torus stands at the origin of the world, and its space is the world's.
         let eye = Normal::new_or(view.camera.eye(), Normal::Z);
         let table = self.indexed()?.table();
-        Ok(ShadeTable::new(table, LightingModel::BlinnPhong, &self.materials, &lighting, eye)?.to_srgb())
+        Ok(ShadeTable::new(table, &self.materials, &view.lighting(), eye, Vec3::ZERO)?.to_srgb())
     }
 }
 
@@ -126,18 +137,17 @@ impl View {
         // To the left of the eye and above it.
         let forward = -camera.eye().normalize();
         let right = forward.cross(Vec3::Y).normalize();
-        let toward = -forward - 0.6 * right + 0.8 * right.cross(forward);
-        Ok(Self { camera, light: Normal::new_or(toward, Normal::Z) })
+        let light = camera.eye() - 2.0 * right + 3.0 * right.cross(forward);
+        Ok(Self { camera, light })
     }
 
     /// The same, lit from behind: most of what is seen is dark.
     pub(super) fn dark(self) -> Self {
-        Self { light: Normal::new_or(-self.light.vec(), Normal::Z), ..self }
+        Self { light: -self.light, ..self }
     }
 
-    pub(super) fn lighting<S: rilievo::Space>(&self) -> Lighting<S> {
-        let light = DirectionalLight { direction: self.light, color: LinearRgb::gray(0.92) };
-        Lighting { ambient: LinearRgb::gray(AMBIENT), lights: vec![light] }.facing()
+    pub(super) fn lighting<S: Space>(&self) -> Lighting<S> {
+        Lighting::new(LinearRgb::gray(AMBIENT), vec![Light::point(self.light, LinearRgb::gray(LIGHT))])
     }
 
     /// Object space to clip space.
@@ -146,11 +156,8 @@ impl View {
     }
 }
 
-const AMBIENT: f32 = 0.08;
-
-/// What a shader has to know of the light, in the order of [`Uniforms`].
-pub(super) fn light_colors(subject: &Subject) -> [[f32; 4]; 3] {
-    let [material] = &subject.materials;
+/// What a shader multiplies ambient light, cosine and highlight by.
+pub(super) fn light_colors() -> [[f32; 4]; 3] {
     let over = |c: LinearRgb, light: f32| [c.r * light, c.g * light, c.b * light, 0.0];
-    [over(material.diffuse, AMBIENT), over(material.diffuse, 0.92), over(material.specular, 0.92)]
+    [over(DIFFUSE, AMBIENT), over(DIFFUSE, LIGHT), over(SPECULAR, LIGHT)]
 }

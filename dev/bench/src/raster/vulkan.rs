@@ -33,7 +33,7 @@ struct Vertex {
 
 /// A subject in the memory of the GPU.
 struct Loaded {
-    subject: Subject,
+    subject: &'static Subject,
     vertices: Buffer,
     indices: Buffer,
     index_count: u32,
@@ -119,7 +119,7 @@ impl Vulkan {
         if self.subjects.contains_key(&size) {
             return Ok(());
         }
-        let subject = Subject::new(size)?;
+        let subject = Subject::get(size)?;
         let mesh = &subject.mesh;
         let vertices: Vec<Vertex> = (0..mesh.positions().len())
             .map(|i| Vertex {
@@ -166,11 +166,11 @@ impl Vulkan {
         let loaded = self.subjects.get(&job.size).context("not loaded")?;
         let view = View::new(number)?;
         let view = if job.dark { view.dark() } else { view };
-        let [ambient, diffuse, specular] = scene::light_colors(&loaded.subject);
+        let [ambient, diffuse, specular] = scene::light_colors();
         let uniforms = Uniforms {
             view_projection: view.view_projection().to_cols_array_2d(),
             eye: view.camera.eye().extend(1.0).to_array(),
-            light: view.light.vec().extend(0.0).to_array(),
+            light: view.light.extend(1.0).to_array(),
             ambient,
             diffuse,
             specular,
