@@ -1,7 +1,7 @@
 //! One object in one tile: blocks of pixels that its triangles own, shaded by whatever method.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16, mask32x16, u32x16};
+use fearless_simd::{Level, Simd, f32x16, i32x16, mask32x16, u32x16};
 
 use super::buffer::{BLOCK, BLOCKS, Tile};
 use super::cover::{COUNT, columns, pixels};
@@ -73,7 +73,30 @@ impl<Sh: Shader<N>, const N: usize> Batch for Shaded<'_, Sh, N> {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]) {
-        dispatch!(level, simd => self.draw_lanes(simd, tile, number, origin));
+        // Not `dispatch!`: machines that have SSE4.2 and no AVX2 are rare, and every set is one more kernel for every method.
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(avx512) = level.as_avx512() {
+                return avx512.vectorize(
+                    #[inline(always)]
+                    || self.draw_lanes(avx512, tile, number, origin),
+                );
+            }
+            if let Some(avx2) = level.as_avx2() {
+                return avx2.vectorize(
+                    #[inline(always)]
+                    || self.draw_lanes(avx2, tile, number, origin),
+                );
+            }
+            if let Some(sse2) = level.as_sse2() {
+                sse2.vectorize(
+                    #[inline(always)]
+                    || self.draw_lanes(sse2, tile, number, origin),
+                );
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        fearless_simd::dispatch!(level, simd => self.draw_lanes(simd, tile, number, origin));
     }
 }
 
@@ -85,10 +108,13 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
             for numbers in chunk.of_tile(number).chunks(16) {
                 for (lane, &triangle) in numbers.iter().enumerate() {
                     let corners = &chunk.triangles[triangle as usize].corners;
-                    group.set(lane, &three!(i => match Triangle::cut(corners[i]) {
-                        None => self.front.vertices[corners[i] as usize],
-                        Some(cut) => chunk.cut[cut].screen,
-                    }));
+                    group.set(
+                        lane,
+                        &three!(i => match Triangle::cut(corners[i]) {
+                            None => self.front.vertices[corners[i] as usize],
+                            Some(cut) => chunk.cut[cut].screen,
+                        }),
+                    );
                 }
                 group.set_up(simd, numbers.len(), origin);
                 for (lane, &triangle) in numbers.iter().enumerate() {

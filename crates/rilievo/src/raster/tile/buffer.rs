@@ -114,7 +114,8 @@ impl Tile {
         for (i, depth) in self.depth.iter().enumerate() {
             let drawn = f32x16::load_array_ref(simd, depth).simd_lt(f32x16::splat(simd, NOTHING)).to_bitmask();
             // At the right and lower border of the picture, blocks reach beyond it.
-            let (columns, lines) = (width.saturating_sub(i % BLOCKS * BLOCK), height.saturating_sub(i / BLOCKS * BLOCK));
+            let (columns, lines) =
+                (width.saturating_sub(i % BLOCKS * BLOCK), height.saturating_sub(i / BLOCKS * BLOCK));
             covered += u64::from((drawn & pixels_within(columns, lines)).count_ones());
         }
         covered

@@ -119,11 +119,7 @@ impl Group {
     /// The edges of a triangle.
     #[inline(always)]
     pub(super) fn edges(&self, lane: usize) -> Edges {
-        Edges {
-            a: three!(i => self.a[i][lane]),
-            b: three!(i => self.b[i][lane]),
-            c: three!(i => self.c[i][lane]),
-        }
+        Edges { a: three!(i => self.a[i][lane]), b: three!(i => self.b[i][lane]), c: three!(i => self.c[i][lane]) }
     }
 
     /// First and last pixel of the tile that a triangle may touch, along x and along y.

@@ -51,6 +51,22 @@ pub(super) struct Footprint<S: Simd> {
     pub(super) inv_w: f32x16<S>,
 }
 
+/// Up to eight texels a pixel, and how much of each: two levels of four.
+struct Taps<S: Simd> {
+    texels: [u32x16<S>; 8],
+    weights: [f32x16<S>; 8],
+    count: usize,
+}
+
+impl<S: Simd> Taps<S> {
+    #[inline(always)]
+    fn push(&mut self, texel: u32x16<S>, weight: f32x16<S>) {
+        self.texels[self.count] = texel;
+        self.weights[self.count] = weight;
+        self.count += 1;
+    }
+}
+
 /// How a map is looked up.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Look {
@@ -148,37 +164,67 @@ impl Texture {
         at: &Footprint<S>,
         mut tap: impl FnMut(u32x16<S>, f32x16<S>),
     ) {
+        if look.filter == TextureFilter::Nearest {
+            return tap(self.nearest(simd, look, at), splat(simd, 1.0));
+        }
+        // Not inlined into every shader, and one place where a texel is read: eighteen of them for each shader and
+        // instruction set take the compiler minutes.
+        let taps = simd.vectorize(
+            #[inline(always)]
+            || self.filtered(simd, look, at),
+        );
+        for k in 0..taps.count {
+            tap(taps.texels[k], taps.weights[k]);
+        }
+    }
+
+    /// The texel under each pixel.
+    #[inline(always)]
+    fn nearest<S: Simd>(&self, simd: S, look: &Look, at: &Footprint<S>) -> u32x16<S> {
         let repeat = [look.repeat.x, look.repeat.y];
         if let (Some(powers), Edges::Wrap) = (self.powers, look.edges) {
-            match look.filter {
-                TextureFilter::Nearest => return nearest_wrapped(simd, at.uv, repeat, powers, tap),
-                TextureFilter::Bilinear => return bilinear_wrapped(simd, at.uv, repeat, powers, tap),
-                TextureFilter::Trilinear => {}
-            }
+            let [x, y] = two!(k => {
+                let side = 1u32 << powers[k];
+                let whole = (at.uv[k] * (repeat[k] * side as f32)).floor().to_int::<i32x16<S>>();
+                whole.bitcast::<u32x16<S>>() & (side - 1)
+            });
+            return (y << powers[0]) | x;
+        }
+        let base = two!(k => splat(simd, self.levels[k + 1] as f32));
+        let [x, y] = two!(k => {
+            let place = place_in_copy(simd, at.uv[k], repeat[k], look.edges);
+            resolve(simd, (place * base[k]).to_int(), base[k], look.edges)
+        });
+        texel(u32x16::splat(simd, 0), base[0], x, y)
+    }
+
+    /// The texels about each pixel, of one level or of two.
+    #[inline(always)]
+    fn filtered<S: Simd>(&self, simd: S, look: &Look, at: &Footprint<S>) -> Taps<S> {
+        let mut taps = Taps { texels: [u32x16::splat(simd, 0); 8], weights: [splat(simd, 0.0); 8], count: 0 };
+        let repeat = [look.repeat.x, look.repeat.y];
+        if let (Some(powers), Edges::Wrap, TextureFilter::Bilinear) = (self.powers, look.edges, look.filter) {
+            bilinear_wrapped(simd, at.uv, repeat, powers, &mut taps);
+            return taps;
         }
         let place = two!(k => place_in_copy(simd, at.uv[k], repeat[k], look.edges));
         let base = two!(k => splat(simd, self.levels[k + 1] as f32));
-        let first = u32x16::splat(simd, 0);
-        match look.filter {
-            TextureFilter::Nearest => {
-                let [x, y] = two!(k => resolve(simd, (place[k] * base[k]).to_int(), base[k], look.edges));
-                tap(texel(first, base[0], x, y), splat(simd, 1.0));
-            }
-            TextureFilter::Bilinear => bilinear(simd, place, (first, base), look.edges, splat(simd, 1.0), &mut tap),
-            TextureFilter::Trilinear => {
-                let last = (self.levels.len() as u32 / LEVEL_WORDS - 1) as f32;
-                let lod = level_of_detail(simd, at, two!(k => base[k] * repeat[k]));
-                let lod = lod.max(splat(simd, 0.0)).min(splat(simd, last));
-                let level = lod.floor();
-                let mix = lod - level;
-                let whole = level.to_int::<u32x16<S>>();
-                bilinear(simd, place, self.level(simd, whole), look.edges, 1.0 - mix, &mut tap);
-                if mix.simd_gt(splat(simd, 0.0)).any_true() {
-                    let next = (whole + 1).min(u32x16::splat(simd, last as u32));
-                    bilinear(simd, place, self.level(simd, next), look.edges, mix, &mut tap);
-                }
-            }
+        if look.filter == TextureFilter::Bilinear {
+            bilinear(simd, place, (u32x16::splat(simd, 0), base), look.edges, splat(simd, 1.0), &mut taps);
+            return taps;
         }
+        let last = (self.levels.len() as u32 / LEVEL_WORDS - 1) as f32;
+        let lod = level_of_detail(simd, at, two!(k => base[k] * repeat[k]));
+        let lod = lod.max(splat(simd, 0.0)).min(splat(simd, last));
+        let level = lod.floor();
+        let mix = lod - level;
+        let whole = level.to_int::<u32x16<S>>();
+        bilinear(simd, place, self.level(simd, whole), look.edges, 1.0 - mix, &mut taps);
+        if mix.simd_gt(splat(simd, 0.0)).any_true() {
+            let next = (whole + 1).min(u32x16::splat(simd, last as u32));
+            bilinear(simd, place, self.level(simd, next), look.edges, mix, &mut taps);
+        }
+        taps
     }
 
     /// First texel and size of a level.
@@ -240,31 +286,9 @@ fn powers<T>(chain: &MipChain<T>) -> Option<[u32; 2]> {
     (width.is_power_of_two() && height.is_power_of_two()).then(|| [width, height].map(u32::trailing_zeros))
 }
 
-/// The texel under each pixel, of a map that wraps after powers of two.
-#[inline(always)]
-fn nearest_wrapped<S: Simd>(
-    simd: S,
-    uv: [f32x16<S>; 2],
-    repeat: [f32; 2],
-    powers: [u32; 2],
-    mut tap: impl FnMut(u32x16<S>, f32x16<S>),
-) {
-    let [x, y] = two!(k => {
-        let side = 1u32 << powers[k];
-        (uv[k] * (repeat[k] * side as f32)).floor().to_int::<i32x16<S>>().bitcast::<u32x16<S>>() & (side - 1)
-    });
-    tap((y << powers[0]) | x, splat(simd, 1.0));
-}
-
 /// The four texels about each pixel, of a map that wraps after powers of two.
 #[inline(always)]
-fn bilinear_wrapped<S: Simd>(
-    simd: S,
-    uv: [f32x16<S>; 2],
-    repeat: [f32; 2],
-    powers: [u32; 2],
-    mut tap: impl FnMut(u32x16<S>, f32x16<S>),
-) {
+fn bilinear_wrapped<S: Simd>(simd: S, uv: [f32x16<S>; 2], repeat: [f32; 2], powers: [u32; 2], taps: &mut Taps<S>) {
     let sides = powers.map(|p| 1u32 << p);
     let p = two!(k => (uv[k] * (repeat[k] * sides[k] as f32)) - 0.5);
     let corner = two!(k => p[k].floor());
@@ -276,7 +300,7 @@ fn bilinear_wrapped<S: Simd>(
     weights[0] = two!(k => one - f[k]);
     for k in 0..4 {
         let (i, j) = (k % 2, k / 2);
-        tap(ys[j] | xs[i], weights[i][0] * weights[j][1]);
+        taps.push(ys[j] | xs[i], weights[i][0] * weights[j][1]);
     }
 }
 
@@ -326,7 +350,7 @@ fn bilinear<S: Simd>(
     (first, size): (u32x16<S>, [f32x16<S>; 2]),
     edges: Edges,
     share: f32x16<S>,
-    tap: &mut impl FnMut(u32x16<S>, f32x16<S>),
+    taps: &mut Taps<S>,
 ) {
     // Texel centres lie at (i + ½) / size.
     let p = two!(k => place[k] * size[k] - 0.5);
@@ -337,7 +361,7 @@ fn bilinear<S: Simd>(
     let weights = [[1.0 - f[0], f[0]], [(1.0 - f[1]) * share, f[1] * share]];
     for k in 0..4 {
         let (i, j) = (k % 2, k / 2);
-        tap(texel(first, size[0], ends[0][i], ends[1][j]), weights[0][i] * weights[1][j]);
+        taps.push(texel(first, size[0], ends[0][i], ends[1][j]), weights[0][i] * weights[1][j]);
     }
 }
 

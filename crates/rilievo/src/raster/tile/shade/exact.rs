@@ -85,7 +85,7 @@ impl<A> Exact<'_, A> {
         let smooth = set_up.planes.vector(simd, NORMAL, block.x, block.y);
         let sum = match &self.relief {
             Relief::Smooth => smooth,
-            Relief::Tangent(texture, look) => {
+            Relief::Tangent(texture, look) | Relief::Object(texture, look) => {
                 let n = mean(
                     simd,
                     texture,
@@ -94,20 +94,8 @@ impl<A> Exact<'_, A> {
                     #[inline(always)]
                     |texel| texture.vector(simd, texel, true),
                 );
-                let tangent = set_up.planes.vector(simd, TANGENT, block.x, block.y);
-                // The cross product of two vectors that are both divided by w has one division too many.
-                let bitangent = cross(smooth, tangent);
-                let up = n[1] * (at.w * set_up.sign);
-                three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, smooth[k] * n[2])))
+                if matches!(self.relief, Relief::Tangent(..)) { bend(simd, set_up, block, at, smooth, n) } else { n }
             }
-            Relief::Object(texture, look) => mean(
-                simd,
-                texture,
-                look,
-                at,
-                #[inline(always)]
-                |texel| texture.vector(simd, texel, true),
-            ),
             Relief::Indexed(texture, look, normals) => mean(
                 simd,
                 texture,
@@ -125,4 +113,21 @@ impl<A> Exact<'_, A> {
         let sum = if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum };
         if set_up.back_facing { three!(k => -sum[k]) } else { sum }
     }
+}
+
+/// A tangent-space normal in object space, by the interpolated frame as it is (MikkTSpace).
+#[inline(always)]
+fn bend<S: Simd>(
+    simd: S,
+    set_up: &SetUp,
+    block: &Block<S>,
+    at: &Footprint<S>,
+    normal: Vec3x16<S>,
+    n: Vec3x16<S>,
+) -> Vec3x16<S> {
+    let tangent = set_up.planes.vector(simd, TANGENT, block.x, block.y);
+    // The cross product of two vectors that are both divided by w has one division too many.
+    let bitangent = cross(normal, tangent);
+    let up = n[1] * (at.w * set_up.sign);
+    three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, normal[k] * n[2])))
 }
