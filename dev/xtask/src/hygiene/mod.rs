@@ -20,6 +20,7 @@ pub(crate) fn run() -> Result<()> {
         complaints.extend(files::check(name, &bytes));
         if let Some(content) = as_text(&bytes) {
             complaints.extend(text::check(name, content));
+            complaints.extend(crate_roots::check_unsafe(name, content));
             complaints.extend(files::check_length(name, content));
         }
     }
