@@ -1,5 +1,5 @@
 //! Interpolated light vectors on tori: how long they are, and how near their pictures are to exact ones.
-#![expect(clippy::unwrap_used, clippy::print_stderr, reason = "tests fail loudly and tell their figures")]
+#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 mod lengths;
 mod pictures;

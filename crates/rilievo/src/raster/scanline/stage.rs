@@ -139,3 +139,80 @@ impl OnRow for Nothing {
 
     fn right(&mut self) {}
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::color::LinearRgb;
+    use crate::light::{Light, Lighting};
+    use crate::raster::scene::Detail;
+    use crate::raster::vectors::{Midpoints, Order};
+    use crate::surface::{Camera, shapes};
+
+    const SIDE: u32 = 128;
+
+    /// The same sum and depths by the fill rule and direct evaluation, summed in f64.
+    fn direct(scene: &Scene<'_>, how: Interpolation) -> (f64, Grid<f32>) {
+        let object = &scene.objects[0];
+        let lighting = scene.lighting.to_object(&object.pose);
+        let vertices = Vertices::new(object.mesh, &lighting.lights, scene.camera.eye());
+        let mut depth = Grid::filled(SIDE, SIDE, 1.0f32).unwrap();
+        let mut sum = 0.0;
+        for triangle in set_up(object, scene, depth.size()) {
+            let lit = vertices.triangle(triangle.vertices, &triangle.corners.map(|c| c.weights), 0);
+            let sides = Place::new(&triangle.shape).sides;
+            let field = Field::new(how, (&lit.corners, &lit.vectors), &sides, &vertices.viewer(0), 0.0).unwrap();
+            let origin = triangle.shape.corners()[0];
+            triangle.shape.for_each_pixel(0..SIDE, 0..SIDE, |x, y, weights| {
+                let z = triangle.depth(weights);
+                if z < depth[(x, y)] {
+                    depth[(x, y)] = z;
+                    let p = (glam::DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - origin).as_vec2();
+                    let at = field.at(p.x, p.y);
+                    sum += f64::from(at.light.element_sum() + at.half.element_sum());
+                }
+            });
+        }
+        (sum, depth)
+    }
+
+    #[test]
+    fn sums_and_depths_are_those_of_direct_evaluation() {
+        let mesh = shapes::torus(12, 12, 1.0, 0.45).unwrap().with_tangents().unwrap();
+        let camera = Camera::orbit(mesh.bounding_sphere(), 0.4, 0.85, 1.02, 0.97, 1.0).unwrap();
+        let lamp = Light::point(camera.eye() + Vec3::new(2.0, 3.0, 0.0), LinearRgb::WHITE);
+        let objects = vec![Object::new(&mesh, Detail::Smooth, &[])];
+        let scene = Scene { objects, lighting: Lighting::new(LinearRgb::BLACK, vec![lamp]), camera };
+        let quadratic = Interpolation::Quadratic { midpoints: Midpoints::GramSchmidt, order: Order::Quadratic };
+        for how in [Interpolation::Linear, Interpolation::Normalized, quadratic] {
+            let (expected, expected_depth) = direct(&scene, how);
+            let mut depth = Grid::filled(SIDE, SIDE, 1.0f32).unwrap();
+            let sum = f64::from(interpolate(&scene, Stage::Interpolate(how), &mut depth).unwrap());
+            assert!(expected > 1000.0 && (sum - expected).abs() < 1e-3 * expected, "{how:?}: {sum}, not {expected}");
+            let off = depth.texels().iter().zip(expected_depth.texels()).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f32::max) < 1e-4, "{how:?}");
+        }
+        let mut depth = Grid::filled(SIDE, SIDE, 1.0f32).unwrap();
+        assert_eq!(interpolate(&scene, Stage::Depth, &mut depth).unwrap(), 0.0);
+        assert!(depth.texels().iter().any(|&z| z < 1.0));
+    }
+
+    #[test]
+    fn lights_and_tangents_are_asked_for() {
+        let mesh = shapes::sphere(8, 4).unwrap();
+        let camera = Camera::orbit(mesh.bounding_sphere(), 0.0, 0.0, 1.1, 0.6, 1.0).unwrap();
+        let objects = vec![Object::new(&mesh, Detail::Smooth, &[])];
+        let dark = Scene { objects, lighting: Lighting::default(), camera };
+        let mut depth = Grid::filled(8, 8, 1.0f32).unwrap();
+        let refused = interpolate(&dark, Stage::Empty, &mut depth).unwrap_err().to_string();
+        assert!(refused.contains("light"), "{refused}");
+        let lit = Scene {
+            lighting: Lighting::new(LinearRgb::BLACK, vec![Light::point(Vec3::ONE, LinearRgb::WHITE)]),
+            ..dark
+        };
+        let refused = interpolate(&lit, Stage::Empty, &mut depth).unwrap_err().to_string();
+        assert!(refused.contains("with_tangents"), "{refused}");
+    }
+}
