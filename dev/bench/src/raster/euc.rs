@@ -210,7 +210,9 @@ impl Renderer for Euc {
                 let pipeline = ByTable { loaded, to_clip, indices, colors: &colors };
                 draw_with(&pipeline, &loaded.corners, color, depth, frames);
             }
-            Shading::Normalized | Shading::Flat => bail!("{:?} was not written for euc", job.shading),
+            Shading::Normalized | Shading::Quadratic | Shading::Flat => {
+                bail!("{:?} was not written for euc", job.shading)
+            }
         }
         Ok(())
     }

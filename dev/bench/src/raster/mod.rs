@@ -36,6 +36,8 @@ use std::path::Path;
 const NATIVE: &str = "RILIEVO_BENCH_NATIVE";
 /// Least ratio of a lit frame's time to that of one that is mostly dark: dark ones may take 1.05 times as long.
 const DARK: f64 = 0.952;
+/// Least ratio of normalised vectors' time to quadratic ones': those may take 1.03 times as long.
+const NORMALIZED: f64 = 0.971;
 
 /// Somebody who draws.
 struct Player {
@@ -104,7 +106,7 @@ fn players(report: &mut Report) -> Result<Vec<Player>> {
 
 fn contests() -> Vec<Contest> {
     use Sampling::{Bilinear, Nearest};
-    use Shading::{Exact, Flat, Table};
+    use Shading::{Exact, Flat, Normalized, Quadratic, Table};
     let mut contests = Vec::new();
     for size in Size::ALL {
         let small = size == Size::T288;
@@ -133,6 +135,20 @@ fn contests() -> Vec<Contest> {
                 rival("native", bilinear, Some(0.95)),
             ],
         );
+        let (quadratic, normalized) = (job(Quadratic, Nearest), job(Normalized, Nearest));
+        contest(
+            "quadratic",
+            quadratic,
+            vec![
+                rival("lavapipe", nearest, small.then_some(4.0)),
+                rival("lavapipe", normalized, None),
+                // Ours against ours: the picture it stands for, and what it replaces.
+                rival("ours", nearest, None),
+                rival("ours", normalized, small.then_some(NORMALIZED)),
+                rival("native", quadratic, Some(0.95)),
+            ],
+        );
+        contest("normalized", normalized, vec![rival("lavapipe", normalized, None), rival("ours", nearest, None)]);
         contest(
             "table",
             table,

@@ -6,6 +6,7 @@ use anyhow::{Result, bail};
 use rilievo::Grid;
 use rilievo::color::{Picture, Rgba8};
 use rilievo::raster::tile::{Options, Renderer as Tiles};
+use rilievo::raster::vectors::{Midpoints, Order};
 use rilievo::raster::{Detail, Method, Object, Scene, TextureFilter};
 
 pub(super) struct Ours {
@@ -23,12 +24,14 @@ impl Renderer for Ours {
     /// A frame is the lighting of the table where there is one, and drawing all over a picture of 8-bit colours.
     fn draw(&mut self, job: Job, view: usize, frames: usize) -> Result<()> {
         let subject = Subject::get(job.size)?;
+        let tangent = Detail::Tangent { normals: &subject.maps.normals, repeat: REPEAT, materials: None };
+        let quadratic = Method::Quadratic { midpoints: Midpoints::default(), order: Order::default() };
         let (method, detail) = match job.shading {
-            Shading::Exact => {
-                (Method::Exact, Detail::Tangent { normals: &subject.maps.normals, repeat: REPEAT, materials: None })
-            }
+            Shading::Exact => (Method::Exact, tangent),
+            Shading::Normalized => (Method::Normalized, tangent),
+            Shading::Quadratic => (quadratic, tangent),
             Shading::Table => (Method::Table, Detail::Indexed(subject.indexed()?)),
-            Shading::Normalized | Shading::Flat => bail!("{:?} is not among the library's methods", job.shading),
+            Shading::Flat => bail!("{:?} is not among the library's methods", job.shading),
         };
         let filter = match job.sampling {
             Sampling::Nearest => TextureFilter::Nearest,

@@ -18,6 +18,8 @@ pub(super) enum Shading {
     Exact,
     /// Light and half-way vectors of the vertices, interpolated and normalised.
     Normalized,
+    /// The same vectors, interpolated quadratically: no software GPU has that.
+    Quadratic,
     /// Index map and table of colours.
     Table,
     /// One colour: what all else costs.
@@ -56,7 +58,7 @@ impl Job {
     pub(super) fn from_words(words: &[&str]) -> Option<Self> {
         let [size, shading, sampling, dark] = words else { return None };
         let size = Size::ALL.into_iter().find(|s| s.name() == *size)?;
-        let shadings = [Shading::Exact, Shading::Normalized, Shading::Table, Shading::Flat];
+        let shadings = [Shading::Exact, Shading::Normalized, Shading::Quadratic, Shading::Table, Shading::Flat];
         let shading = shadings.into_iter().find(|s| format!("{s:?}") == *shading)?;
         let samplings = [Sampling::Nearest, Sampling::Bilinear];
         let sampling = samplings.into_iter().find(|s| format!("{s:?}") == *sampling)?;
@@ -107,7 +109,7 @@ mod tests {
     #[test]
     fn words_and_back() {
         for size in Size::ALL {
-            for shading in [Shading::Exact, Shading::Normalized, Shading::Table, Shading::Flat] {
+            for shading in [Shading::Exact, Shading::Normalized, Shading::Quadratic, Shading::Table, Shading::Flat] {
                 for sampling in [Sampling::Nearest, Sampling::Bilinear] {
                     for dark in [false, true] {
                         let job = Job { size, shading, sampling, dark };

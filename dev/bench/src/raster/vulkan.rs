@@ -2,7 +2,7 @@
 
 use super::renderer::{Job, Renderer, Sampling, Shading, unpack};
 use super::scene::{self, ENTRIES, MAP_SIDE, REPEAT, SIDE, Size, Subject, View};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use rilievo::color::Picture;
 use std::collections::HashMap;
 use wgpu::*;
@@ -179,6 +179,7 @@ impl Vulkan {
         let (vertex, fragment) = match job.shading {
             Shading::Exact => ("vertex_exact", "fragment_exact"),
             Shading::Normalized => ("vertex_normalized", "fragment_normalized"),
+            Shading::Quadratic => bail!("quadratic vectors need the midpoints of triangles, which shaders do not see"),
             Shading::Table => ("vertex_plain", "fragment_index"),
             Shading::Flat => ("vertex_plain", "fragment_flat"),
         };
@@ -209,7 +210,7 @@ impl Vulkan {
         };
         let texture = |binding, view| BindGroupEntry { binding, resource: BindingResource::TextureView(view) };
         match (job.shading, &loaded.index_map, &colors) {
-            (Shading::Exact | Shading::Normalized, ..) => {
+            (Shading::Exact | Shading::Normalized | Shading::Quadratic, ..) => {
                 entries.push(texture(1, &loaded.normals));
                 entries.push(BindGroupEntry { binding: 2, resource: BindingResource::Sampler(&sampler) });
             }

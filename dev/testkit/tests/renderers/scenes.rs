@@ -53,9 +53,8 @@ impl Stage {
         if tangent_space && !self.subjects.iter().flat_map(|s| &s.materials).all(simple) {
             return None;
         }
-        let object = |s: &'_ Subject| -> Object<'_> { s.object(method) };
         Some(Scene {
-            objects: self.subjects.iter().map(object).collect(),
+            objects: self.subjects.iter().map(|subject| subject.object(method)).collect(),
             lighting: self.lighting.clone(),
             camera: self.camera,
         })

@@ -11,12 +11,8 @@ const ISLAND_ROOT: &str = "crates/rilievo/src/lib.rs";
 const ISLAND_ATTRIBUTE: &str = "#![deny(unsafe_code)]";
 const ISLAND: &str = "crates/rilievo/src/simd/gather.rs";
 /// The only things there that may be unsafe are blocks.
-const KEYWORDS: [&str; 4] = [
-    concat!("unsafe", " {"),
-    concat!("unsafe", " fn"),
-    concat!("unsafe", " impl"),
-    concat!("unsafe", " trait"),
-];
+const KEYWORDS: [&str; 4] =
+    [concat!("unsafe", " {"), concat!("unsafe", " fn"), concat!("unsafe", " impl"), concat!("unsafe", " trait")];
 
 /// The root files of all libraries and programs of the members; tests and examples have the workspace's lints.
 pub(super) fn paths(metadata: &Value) -> impl Iterator<Item = &str> {
