@@ -32,7 +32,7 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 7] = [
+const GROUPS: [Group; 9] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",

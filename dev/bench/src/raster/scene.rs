@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use glam::{Mat4, Vec2, Vec3};
 use rilievo::height::{Filter, HeightMap, to_normals};
 use rilievo::indexed::QuantizedMap;
-use rilievo::light::{Light, Lighting, Material, ShadeTable};
+use rilievo::light::{Blend, Light, Lighting, Material, ShadeTable};
 use rilievo::normal::{decode_u8, encode_u8};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Options, quantize};
@@ -125,7 +125,7 @@ impl Subject {
         // The torus stands at the origin of the world, and its space is the world's.
         let eye = Normal::new_or(view.camera.eye(), Normal::Z);
         let table = self.indexed()?.table();
-        Ok(ShadeTable::new(table, &self.materials, &view.lighting(), eye, Vec3::ZERO)?.to_srgb())
+        Ok(ShadeTable::new(table, &self.materials, &view.lighting(), eye, Vec3::ZERO)?.to_srgb(Blend::Add))
     }
 }
 
