@@ -1,9 +1,9 @@
 //! The fast renderer: tiles of 64 × 64 pixels, blocks of 4 × 4, sixteen lanes.
 //!
-//! A frame runs in two steps. The [`front`] projects vertices sixteen at a time and sorts triangles into tiles; then each tile
+//! A frame runs in two steps. The `front` projects vertices sixteen at a time and sorts triangles into tiles; then each tile
 //! is drawn by itself, depth and colour in the nearest cache, and copied to the picture once. Within a tile a triangle is
-//! looked at row by row of blocks: which may have pixels inside, which lie inside altogether, which are hidden ([`cover`],
-//! [`batch`]). What is left is shaded sixteen pixels at a time by the method's room in [`shade`], and encoded there.
+//! looked at row by row of blocks: which may have pixels inside, which lie inside altogether, which are hidden (`cover`,
+//! `batch`). What is left is shaded sixteen pixels at a time by the method's room in `shade`, and encoded there.
 //!
 //! One source serves every instruction set; which one is chosen once for each tile. Coverage is that of the reference to the
 //! pixel, by the same snapped vertices and the same whole numbers; colours are within a tolerance that
@@ -95,7 +95,7 @@ impl<'a> Renderer<'a> {
     /// stays.
     ///
     /// # Errors
-    /// As [`crate::raster::prepare`], and [`Error::Parameter`] for a picture with a side above [`MAX_PICTURE_SIDE`].
+    /// As [`crate::raster::prepare`], and [`Error::Parameter`] for a picture with a side above 16 384 pixels.
     pub fn draw(&mut self, scene: &Scene<'a>, options: &Options, picture: &mut Picture) -> Result<Drawn> {
         let size = picture.size();
         if size.0.max(size.1) > MAX_PICTURE_SIDE {

@@ -149,7 +149,7 @@ impl<T: Value> Quadratic<T> {
     /// (three equations), slopes at vertex 0 those of d and e (two). `None` for a triangle without area.
     ///
     /// - **Source:** Abbas et al. 2001: setup on the actual triangle. The same polynomial as [`Self::on_normalized`]
-    ///   and [`Self::snap`] make, to rounding, at a higher price.
+    ///   makes and maps to the screen, to rounding, at a higher price.
     pub fn on_actual(samples: &SixSamples<T>, triangle: &Sides) -> Option<Self> {
         let (Vec2 { x: x1, y: y1 }, Vec2 { x: x2, y: y2 }) = (triangle.first, triangle.second);
         let [l, m, n] = samples.corners;
