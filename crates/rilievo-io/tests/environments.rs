@@ -1,5 +1,4 @@
 //! Surroundings from files: made by hand, damaged, and real.
-#![expect(clippy::unwrap_used, reason = "test helpers fail loudly")]
 
 use glam::Vec3;
 use rilievo::light::Projection;

@@ -84,8 +84,8 @@ impl Projection {
     pub(super) fn outside(&self, p: Vec4) -> u8 {
         let g = self.guard_band * p.w;
         let distances = [p.z, p.w - p.z, g - p.x, g + p.x, g - p.y, g + p.y];
-        // Not `< 0`: what is no number is outside of everything.
-        distances.iter().enumerate().fold(0, |bits, (i, &d)| bits | u8::from(!(d >= 0.0)) << i)
+        // What is no number is outside of everything.
+        distances.iter().enumerate().fold(0, |bits, (i, &d)| bits | u8::from(d < 0.0 || d.is_nan()) << i)
     }
 
     /// [`Self::clip_position`] and [`Self::snap`] of sixteen points, given as x, y and z, and for each the planes of the clip

@@ -65,6 +65,7 @@ impl Size {
 /// The maps, the same on both tori. All share one parametrisation, and the torus has one surface.
 pub(super) struct Maps {
     /// What the GPU gets, byte for byte.
+    #[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "no one else has a GPU to fill"))]
     pub(super) codes: Grid<[u8; 3]>,
     /// What those bytes stand for.
     pub(super) normals: MipChain<Normal<Tangent>>,

@@ -1,5 +1,6 @@
 //! The tile renderer against the reference: every method, filter and instruction set, on scenes that are hard in their own
 //! ways. Coverage must be the same to the pixel; colours may be off by what is stated here, and nowhere else.
+#![expect(clippy::unwrap_used, reason = "scenes fail loudly")]
 
 mod scenes;
 
