@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::light::{Lighting, Shade, shade};
+use crate::light::{Lighting, Shade, ShadeTable, shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, World};
 use crate::raster::frame::check;
@@ -37,8 +37,8 @@ pub fn bake_light_map(object: &Object<'_>, lighting: &Lighting<World>, eye: Vec3
             normals.levels().iter().enumerate().map(level).collect()
         }
         Detail::Indexed(map) => {
-            let table = map.table();
-            let entry = |&i: &u16| lit(table.normals()[usize::from(i)], table.material_of(i));
+            let table = ShadeTable::new(map.table(), object.materials, &lighting, view, middle)?;
+            let entry = |&i: &u16| table.entries()[usize::from(i)];
             Ok(map.indices().levels().iter().map(|level| level.map(entry)).collect())
         }
         Detail::Smooth | Detail::Tangent { .. } | Detail::Baked(_) => {
