@@ -14,7 +14,7 @@ mod srgb;
 pub(crate) use gather::{gather, gather_u16};
 pub(crate) use power::{Power, exp2, log2};
 pub(crate) use root::{recip, rsqrt};
-pub(crate) use srgb::srgb_code;
+pub(crate) use srgb::{srgb_code, srgb_light};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};

@@ -44,7 +44,7 @@ impl Renderer for Ours {
             lighting: view.lighting(),
             camera: view.camera,
         };
-        let options = Options { method, filter, background: None };
+        let options = Options { method, filter, ..Options::default() };
         for _ in 0..frames {
             self.tiles.draw(&scene, &options, &mut self.picture)?;
         }

@@ -55,7 +55,7 @@ fn reference(scene: &Scene<'_>, options: &Options, (width, height): (u32, u32)) 
 /// Compares one picture of a stage by all instruction sets with the reference.
 fn compare(stage: &Stage, method: Method, filter: TextureFilter, background: Option<LinearRgb>) {
     let Some(scene) = stage.scene(method) else { return };
-    let options = Options { method, filter, background };
+    let options = Options { method, filter, background, ..Options::default() };
     let (expected, covered) = reference(&scene, &options, stage.size);
     assert!(covered > 200, "{}: there is something to see", stage.name);
     for level in levels() {
@@ -123,7 +123,7 @@ fn every_lighting_model() {
 #[test]
 fn threads_do_not_change_a_bit() {
     let stage = scenes::crowd();
-    let options = Options { method: Method::Exact, filter: TextureFilter::Trilinear, background: None };
+    let options = Options { method: Method::Exact, filter: TextureFilter::Trilinear, ..Options::default() };
     let scene = stage.scene(options.method).unwrap();
     let make = || {
         let mut picture = empty_picture(stage.size.0, stage.size.1).unwrap();
@@ -159,7 +159,7 @@ fn odd_sizes() {
     for size in [(1, 1), (3, 200), (65, 63), (130, 7), (64, 64)] {
         stage.size = size;
         let scene = stage.scene(Method::Exact).unwrap();
-        let options = Options { method: Method::Exact, filter: TextureFilter::Bilinear, background: None };
+        let options = Options { method: Method::Exact, filter: TextureFilter::Bilinear, ..Options::default() };
         let (expected, covered) = reference(&scene, &options, size);
         let mut picture = empty_picture(size.0, size.1).unwrap();
         let drawn = Renderer::new().draw(&scene, &options, &mut picture).unwrap();

@@ -1,14 +1,14 @@
-//! One object in one tile: blocks of pixels that its triangles own, shaded by whatever method.
+//! The shading of an object: each block of pixels once, whatever triangles meet in it.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f32x16, i32x16, mask32x16, u32x16};
+use fearless_simd::{Level, Simd, f32x16, mask32x16, u32x16};
 
 use super::buffer::{BLOCK, BLOCKS, Tile};
-use super::cover::{COUNT, columns, pixels};
+use super::cover::pixels;
 use super::front::{Chunk, Front, Triangle, Vertex};
-use super::group::Group;
-use super::planes::{Plane, Sides};
-use crate::simd::three;
+use super::planes::Sides;
+use super::visible::Owner;
+use crate::simd::{LANES, three};
 
 /// A way to shade, over `N` attributes of each vertex.
 pub(super) trait Shader<const N: usize>: Sync {
@@ -21,8 +21,8 @@ pub(super) trait Shader<const N: usize>: Sync {
     /// Prepares a triangle that owns a pixel of a tile.
     fn set_up(&self, triangle: &Seen<'_, N>) -> Self::SetUp;
 
-    /// Encoded colours of a block. Lanes outside of the triangle may be anything.
-    fn shade<S: Simd>(&self, simd: S, set_up: &Self::SetUp, block: &Block<S>) -> u32x16<S>;
+    /// Encoded colours of a block. Lanes that no part has may be anything.
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, Self::SetUp>) -> u32x16<S>;
 }
 
 /// A triangle with a visible pixel.
@@ -43,22 +43,64 @@ impl<const N: usize> Seen<'_, N> {
     }
 }
 
-/// Sixteen pixels.
-pub(super) struct Block<S: Simd> {
-    /// Where their centres are, relative to the triangle's first corner, in pixels.
+/// Sixteen pixels, each of one triangle.
+pub(super) struct Block<'a, S: Simd, U> {
+    set_ups: &'a [U],
+    owners: &'a [Owner],
+    parts: &'a [PartOf],
+    /// The numbers of the owners, by pixel.
+    words: u32x16<S>,
+    /// Where the centres of the pixels are in the tile.
+    x: f32x16<S>,
+    y: f32x16<S>,
+}
+
+/// Which owner, and which set-up is its.
+#[derive(Debug, Clone, Copy, Default)]
+struct PartOf {
+    word: u32,
+    owner: u32,
+    set_up: u32,
+}
+
+/// What one triangle has of a block.
+pub(super) struct Part<'a, S: Simd, U> {
+    pub(super) set_up: &'a U,
+    /// Where pixel centres are, relative to the triangle's first corner, in pixels.
     pub(super) x: f32x16<S>,
     pub(super) y: f32x16<S>,
-    /// The pixels that will be seen.
-    pub(super) visible: mask32x16<S>,
+    /// The pixels that are the triangle's.
+    pub(super) lanes: mask32x16<S>,
+}
+
+impl<'a, S: Simd, U> Block<'a, S, U> {
+    /// How many triangles meet here.
+    #[inline(always)]
+    pub(super) fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// One of them.
+    #[inline(always)]
+    pub(super) fn part(&self, simd: S, i: usize) -> Part<'a, S, U> {
+        let part = self.parts[i];
+        let [right, down] = self.owners[part.owner as usize].start;
+        Part {
+            set_up: &self.set_ups[part.set_up as usize],
+            x: self.x + right,
+            y: self.y + down,
+            lanes: self.words.simd_eq(u32x16::splat(simd, part.word)),
+        }
+    }
 }
 
 /// What the picture wants of an object, whatever shades it.
 pub(super) trait Batch: Sync {
-    /// Whether the object may touch a tile.
-    fn touches(&self, number: usize) -> bool;
+    /// Its triangles.
+    fn front(&self) -> &Front;
 
-    /// Draws the part in a tile, given by its number and its first pixel.
-    fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]);
+    /// Colours the pixels of `tile` whose owners are `owners`, the first of them number `first`.
+    fn shade(&self, level: Level, tile: &mut Tile, owners: &[Owner], first: u32);
 }
 
 /// An object on the screen and its shader.
@@ -68,118 +110,107 @@ pub(super) struct Shaded<'a, Sh, const N: usize> {
 }
 
 impl<Sh: Shader<N>, const N: usize> Batch for Shaded<'_, Sh, N> {
-    fn touches(&self, number: usize) -> bool {
-        self.front.chunks.iter().any(|chunk| !chunk.of_tile(number).is_empty())
+    fn front(&self) -> &Front {
+        self.front
     }
 
-    fn draw(&self, level: Level, tile: &mut Tile, number: usize, origin: [i32; 2]) {
+    fn shade(&self, level: Level, tile: &mut Tile, owners: &[Owner], first: u32) {
         // Not `dispatch!`: machines that have SSE4.2 and no AVX2 are rare, and every set is one more kernel for every method.
         #[cfg(target_arch = "x86_64")]
         {
             if let Some(avx512) = level.as_avx512() {
                 return avx512.vectorize(
                     #[inline(always)]
-                    || self.draw_lanes(avx512, tile, number, origin),
+                    || self.shade_lanes(avx512, tile, owners, first),
                 );
             }
             if let Some(avx2) = level.as_avx2() {
                 return avx2.vectorize(
                     #[inline(always)]
-                    || self.draw_lanes(avx2, tile, number, origin),
+                    || self.shade_lanes(avx2, tile, owners, first),
                 );
             }
             if let Some(sse2) = level.as_sse2() {
                 sse2.vectorize(
                     #[inline(always)]
-                    || self.draw_lanes(sse2, tile, number, origin),
+                    || self.shade_lanes(sse2, tile, owners, first),
                 );
             }
         }
         #[cfg(not(target_arch = "x86_64"))]
-        fearless_simd::dispatch!(level, simd => self.draw_lanes(simd, tile, number, origin));
+        fearless_simd::dispatch!(level, simd => self.shade_lanes(simd, tile, owners, first));
     }
 }
 
+/// No set-up yet.
+const NONE: u32 = u32::MAX;
+
 impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
     #[inline(always)]
-    fn draw_lanes<S: Simd>(&self, simd: S, tile: &mut Tile, number: usize, origin: [i32; 2]) {
-        let mut group = Group::default();
-        for chunk in &self.front.chunks {
-            for numbers in chunk.of_tile(number).chunks(16) {
-                for (lane, &triangle) in numbers.iter().enumerate() {
-                    let corners = &chunk.triangles[triangle as usize].corners;
-                    group.set(
-                        lane,
-                        &three!(i => match Triangle::cut(corners[i]) {
-                            None => self.front.vertices[corners[i] as usize],
-                            Some(cut) => chunk.cut[cut].screen,
-                        }),
-                    );
+    fn shade_lanes<S: Simd>(&self, simd: S, tile: &mut Tile, owners: &[Owner], first: u32) {
+        let mut set_ups: Vec<Sh::SetUp> = Vec::with_capacity(owners.len());
+        let mut set_up_of = vec![NONE; owners.len()];
+        let [lane_x, lane_y] = pixels(simd);
+        let count = u32x16::splat(simd, owners.len() as u32);
+        let samples = tile.samples();
+        for block in 0..BLOCKS * BLOCKS {
+            // Samples of a pixel may have several owners: one after the other.
+            loop {
+                // The first sample of each pixel that waits for its colour.
+                let mut words = tile.word(simd, block * samples);
+                let mut waiting = (words - first).simd_lt(count);
+                for sample in 1..samples {
+                    let next = tile.word(simd, block * samples + sample);
+                    words = waiting.select(words, next);
+                    waiting |= (next - first).simd_lt(count);
                 }
-                group.set_up(simd, numbers.len(), origin);
-                for (lane, &triangle) in numbers.iter().enumerate() {
-                    self.draw_triangle(simd, chunk, &chunk.triangles[triangle as usize], &group, lane, tile);
+                let mut left = waiting.to_bitmask() as u32;
+                if left == 0 {
+                    break;
+                }
+                let mut numbers = [0; LANES];
+                words.store_array(&mut numbers);
+                let (mut parts, mut len) = ([PartOf::default(); LANES], 0);
+                while left != 0 {
+                    let word = numbers[left.trailing_zeros() as usize];
+                    left &= !(words.simd_eq(u32x16::splat(simd, word)).to_bitmask() as u32);
+                    let owner = (word - first) as usize;
+                    if set_up_of[owner] == NONE {
+                        set_up_of[owner] = set_ups.len() as u32;
+                        set_ups.push(self.set_up(&owners[owner]));
+                    }
+                    parts[len] = PartOf { word, owner: owner as u32, set_up: set_up_of[owner] };
+                    len += 1;
+                }
+                let color = self.shader.shade(
+                    simd,
+                    &Block {
+                        set_ups: &set_ups,
+                        owners,
+                        parts: &parts[..len],
+                        words,
+                        x: lane_x + (block % BLOCKS * BLOCK) as f32,
+                        y: lane_y + (block / BLOCKS * BLOCK) as f32,
+                    },
+                );
+                for sample in 0..samples {
+                    let at = block * samples + sample;
+                    let word = tile.word(simd, at);
+                    tile.set_word(at, (waiting & word.simd_eq(words)).select(color, word));
+                }
+                if samples == 1 {
+                    break;
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn draw_triangle<S: Simd>(
-        &self,
-        simd: S,
-        chunk: &Chunk,
-        triangle: &Triangle,
-        group: &Group,
-        lane: usize,
-        tile: &mut Tile,
-    ) {
-        let (edges, depth, start) = (group.edges(lane), group.depth(lane), group.start(lane));
-        let [x0, x1, y0, y1] = group.bounds(lane);
-        let over_block = edges.over_block(simd);
-        let [lane_x, lane_y] = pixels(simd);
-        let reach = BlockReach::new(&depth);
-        let in_columns = columns([x0, x1]);
-        // Few blocks are looked at one by one.
-        let wide = x1 / BLOCK as i32 > x0 / BLOCK as i32 + 1;
-        let mut set_up = None;
-        for by in y0 / BLOCK as i32..=y1 / BLOCK as i32 {
-            let y0 = start[1] + (by * BLOCK as i32) as f32;
-            let (mut left, mut all) = (in_columns, 0);
-            if wide {
-                let (some, whole) = edges.row(simd, by);
-                left &= some & reach.before(simd, &depth, start[0], y0, tile.farthest(simd, by as usize));
-                all = whole;
-            }
-            let y = lane_y + y0;
-            while left != 0 {
-                let bx = left.trailing_zeros() as i32;
-                left &= left - 1;
-                let x0 = start[0] + (bx * BLOCK as i32) as f32;
-                let x = lane_x + x0;
-                let z = depth.at(simd, x, y);
-                let block = by as usize * BLOCKS + bx as usize;
-                let before = tile.depth(simd, block);
-                let mut visible = z.simd_lt(before);
-                if all >> bx & 1 == 0 {
-                    visible &= edges.inside(simd, &over_block, bx, by);
-                }
-                let bits = visible.to_bitmask();
-                if bits == 0 {
-                    continue;
-                }
-                let farthest = (bits == 0xffff).then(|| reach.farthest(&depth, x0, y0));
-                tile.set_depth(block, visible.select(z, before), farthest);
-                if set_up.is_none() {
-                    let attributes = three!(i => self.attributes_of(chunk, triangle.corners[i]));
-                    set_up = Some(self.shader.set_up(&Seen { triangle, attributes, sides: group.sides(lane), chunk }));
-                }
-                let Some(set_up) = &set_up else { continue };
-                let color = self.shader.shade(simd, set_up, &Block { x, y, visible });
-                let color = if bits == 0xffff { color } else { visible.select(color, tile.color(simd, block)) };
-                tile.set_color(block, color);
-            }
-        }
+    fn set_up(&self, owner: &Owner) -> Sh::SetUp {
+        let chunk = &self.front.chunks[owner.chunk as usize];
+        let triangle = &chunk.triangles[owner.triangle as usize];
+        let attributes = three!(i => self.attributes_of(chunk, triangle.corners[i]));
+        self.shader.set_up(&Seen { triangle, attributes, sides: owner.sides, chunk })
     }
 
     #[inline(always)]
@@ -189,38 +220,5 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
             Some(cut) => (&chunk.cut_attributes, cut),
         };
         &values.as_chunks::<N>().0[at]
-    }
-}
-
-/// How far depth reaches within a block from its first pixel: down and up.
-struct BlockReach {
-    nearer: f32,
-    farther: f32,
-}
-
-impl BlockReach {
-    fn new(depth: &Plane) -> Self {
-        let side = (BLOCK - 1) as f32;
-        Self {
-            nearer: side * (depth.dx.min(0.0) + depth.dy.min(0.0)),
-            farther: side * (depth.dx.max(0.0) + depth.dy.max(0.0)),
-        }
-    }
-
-    /// The blocks of a row that have a place in front of what is there, a bit for each; the first pixel is at (x, y).
-    #[inline(always)]
-    fn before<S: Simd>(&self, simd: S, depth: &Plane, x: f32, y: f32, farthest: f32x16<S>) -> u32 {
-        let first = depth.at_corner + depth.dx * x + depth.dy * y + self.nearer;
-        let step = depth.dx * BLOCK as f32;
-        let lanes = i32x16::load_array_ref(simd, &COUNT).to_float::<f32x16<S>>();
-        let nearest = lanes.mul_add(f32x16::splat(simd, step), f32x16::splat(simd, first));
-        // Depths are rounded differently by the pixel: some room, so that nothing is passed over that would be seen.
-        let room = f32x16::splat(simd, 1e-5);
-        (nearest - room).simd_lt(farthest).to_bitmask() as u32
-    }
-
-    /// No pixel of the block whose first pixel is at (x, y) is farther.
-    fn farthest(&self, depth: &Plane, x: f32, y: f32) -> f32 {
-        depth.at_corner + depth.dx * x + depth.dy * y + self.farther + 1e-5
     }
 }

@@ -3,7 +3,9 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 
+use super::samples::Samples;
 use crate::color::Rgba8;
+use crate::simd::{LANES, splat, splat3, srgb_code, srgb_light, three};
 
 /// Pixels along a side of a tile.
 pub(super) const TILE: usize = 64;
@@ -16,26 +18,40 @@ pub(super) const BLOCKS: usize = TILE / BLOCK;
 /// Depth where nothing was drawn.
 const NOTHING: f32 = f32::INFINITY;
 
-/// Depth and encoded colour, block by block, and within a block row by row.
-#[repr(C, align(64))]
+/// Depth, and a word that is an encoded colour or a number of [`super::visible::Owners`]: block by block, within it sample by
+/// sample, within those row by row.
 pub(super) struct Tile {
-    depth: [[f32; BLOCK * BLOCK]; BLOCKS * BLOCKS],
-    color: [[u32; BLOCK * BLOCK]; BLOCKS * BLOCKS],
-    /// For each block, no pixel lies farther: what is hidden altogether need not be looked at.
-    farthest: [[f32; BLOCKS]; BLOCKS],
+    depth: Vec<Lanes<f32>>,
+    words: Vec<Lanes<u32>>,
+    /// For each block, no sample lies farther: what is hidden altogether need not be looked at.
+    farthest: [Lanes<f32>; BLOCKS],
+    samples: usize,
 }
 
+/// A row of lanes, where one load gets it.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+struct Lanes<T>([T; LANES]);
+
 impl Tile {
-    /// A tile on which nothing was drawn yet.
-    pub(super) fn new(background: u32) -> Self {
+    /// A tile with so many samples a pixel; it is to be cleared first.
+    pub(super) fn new(samples: Samples) -> Self {
+        let samples = samples.count();
         Self {
-            depth: [[NOTHING; 16]; BLOCKS * BLOCKS],
-            color: [[background; 16]; BLOCKS * BLOCKS],
-            farthest: [[NOTHING; BLOCKS]; BLOCKS],
+            depth: vec![Lanes([NOTHING; LANES]); BLOCKS * BLOCKS * samples],
+            words: vec![Lanes([0; LANES]); BLOCKS * BLOCKS * samples],
+            farthest: [Lanes([NOTHING; LANES]); BLOCKS],
+            samples,
         }
     }
 
-    /// Makes it empty again.
+    /// How many samples a pixel has: 1 or 4.
+    #[inline(always)]
+    pub(super) fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Makes it empty.
     pub(super) fn clear(&mut self, level: Level, background: u32) {
         dispatch!(level, simd => self.clear_lanes(simd, background));
     }
@@ -43,76 +59,121 @@ impl Tile {
     #[inline(always)]
     fn clear_lanes<S: Simd>(&mut self, simd: S, background: u32) {
         let (nothing, background) = (f32x16::splat(simd, NOTHING), u32x16::splat(simd, background));
-        for (depth, color) in self.depth.iter_mut().zip(&mut self.color) {
-            nothing.store_array(depth);
-            background.store_array(color);
+        for (depth, words) in self.depth.iter_mut().zip(&mut self.words) {
+            nothing.store_array(&mut depth.0);
+            background.store_array(&mut words.0);
         }
         for row in &mut self.farthest {
-            nothing.store_array(row);
+            nothing.store_array(&mut row.0);
         }
     }
 
-    /// Depths of a block.
+    /// Depths of a sample of a block, given by block · samples + sample.
     #[inline(always)]
-    pub(super) fn depth<S: Simd>(&self, simd: S, block: usize) -> f32x16<S> {
-        f32x16::load_array_ref(simd, &self.depth[block])
+    pub(super) fn depth<S: Simd>(&self, simd: S, at: usize) -> f32x16<S> {
+        f32x16::load_array_ref(simd, &self.depth[at].0)
     }
 
-    /// Writes the depths of a block; `farthest` if all of its pixels have become nearer than that.
+    /// Writes depths.
     #[inline(always)]
-    pub(super) fn set_depth<S: Simd>(&mut self, block: usize, depth: f32x16<S>, farthest: Option<f32>) {
-        depth.store_array(&mut self.depth[block]);
-        if let Some(farthest) = farthest {
-            let place = &mut self.farthest[block / BLOCKS][block % BLOCKS];
-            *place = place.min(farthest);
-        }
+    pub(super) fn set_depth<S: Simd>(&mut self, at: usize, depth: f32x16<S>) {
+        depth.store_array(&mut self.depth[at].0);
     }
 
-    /// For the blocks of a row: no pixel lies farther.
+    /// For the blocks of a row: no sample lies farther.
     #[inline(always)]
     pub(super) fn farthest<S: Simd>(&self, simd: S, by: usize) -> f32x16<S> {
-        f32x16::load_array_ref(simd, &self.farthest[by])
+        f32x16::load_array_ref(simd, &self.farthest[by].0)
     }
 
-    /// Colours of a block.
+    /// All samples of a block have become nearer than this.
     #[inline(always)]
-    pub(super) fn color<S: Simd>(&self, simd: S, block: usize) -> u32x16<S> {
-        u32x16::load_array_ref(simd, &self.color[block])
+    pub(super) fn set_farthest(&mut self, block: usize, farthest: f32) {
+        let place = &mut self.farthest[block / BLOCKS].0[block % BLOCKS];
+        *place = place.min(farthest);
     }
 
-    /// Writes the colours of a block.
+    /// Words of a sample of a block, given by block · samples + sample.
     #[inline(always)]
-    pub(super) fn set_color<S: Simd>(&mut self, block: usize, color: u32x16<S>) {
-        color.store_array(&mut self.color[block]);
+    pub(super) fn word<S: Simd>(&self, simd: S, at: usize) -> u32x16<S> {
+        u32x16::load_array_ref(simd, &self.words[at].0)
+    }
+
+    /// Writes words.
+    #[inline(always)]
+    pub(super) fn set_word<S: Simd>(&mut self, at: usize, word: u32x16<S>) {
+        word.store_array(&mut self.words[at].0);
     }
 
     /// Copies the tile into rows of `stride` pixels, the first of which begin at its corner; returns how many pixels
-    /// something was drawn on.
-    pub(super) fn copy_to(&self, level: Level, rows: &mut [Rgba8], stride: usize, x: usize) -> u64 {
-        dispatch!(level, simd => self.copy_lanes(simd, rows, stride, x))
+    /// something was drawn on. Samples become one colour first.
+    pub(super) fn copy_to(&mut self, level: Level, rows: &mut [Rgba8], stride: usize, x: usize) -> u64 {
+        dispatch!(level, simd => {
+            if self.samples > 1 {
+                self.resolve(simd);
+            }
+            self.copy_lanes(simd, rows, stride, x)
+        })
+    }
+
+    /// The mean of the samples of each pixel, in linear light, as the word of its first sample; depth as near as any.
+    ///
+    /// Empty samples are transparent: they make the pixel so in part, and say nothing of its colour.
+    #[inline(always)]
+    fn resolve<S: Simd>(&mut self, simd: S) {
+        let samples = self.samples;
+        for block in 0..BLOCKS * BLOCKS {
+            let first = self.word(simd, block * samples);
+            let mut differs = u32x16::splat(simd, 0);
+            let mut nearest = self.depth(simd, block * samples);
+            for at in block * samples + 1..(block + 1) * samples {
+                differs |= self.word(simd, at) ^ first;
+                nearest = nearest.min(self.depth(simd, at));
+            }
+            self.set_depth(block * samples, nearest);
+            if differs.simd_eq(u32x16::splat(simd, 0)).all_true() {
+                continue;
+            }
+            let mut sum = splat3(simd, [0.0; 3]);
+            let mut opaque = splat(simd, 0.0);
+            for at in block * samples..(block + 1) * samples {
+                let word = self.word(simd, at);
+                let solid = (word >> 24).simd_gt(u32x16::splat(simd, 0)).select(splat(simd, 1.0), splat(simd, 0.0));
+                let light = three!(k => srgb_light(simd, (word >> (8 * k as u32)) & 0xff));
+                sum = three!(k => light[k].mul_add(solid, sum[k]));
+                opaque += solid;
+            }
+            let share = 1.0 / opaque.max(splat(simd, 1.0));
+            let [r, g, b] = three!(k => srgb_code(simd, sum[k] * share));
+            let alpha = (opaque * (255.0 / samples as f32) + 0.5).to_int::<u32x16<S>>();
+            let mean = r | (g << 8) | (b << 16) | (alpha << 24);
+            // Nothing at all is all zeros, as it was.
+            let mean = opaque.simd_gt(splat(simd, 0.0)).select(mean, u32x16::splat(simd, 0));
+            self.set_word(block * samples, mean);
+        }
     }
 
     #[inline(always)]
     fn copy_lanes<S: Simd>(&self, simd: S, rows: &mut [Rgba8], stride: usize, x: usize) -> u64 {
         let width = TILE.min(stride - x);
         let height = TILE.min(rows.len() / stride);
+        let samples = self.samples;
         for (y, row) in rows.chunks_exact_mut(stride).enumerate().take(TILE) {
             let row: &mut [u32] = bytemuck::cast_slice_mut(&mut row[x..x + width]);
-            let blocks = &self.color[y / BLOCK * BLOCKS..][..BLOCKS];
+            let blocks = self.words[y / BLOCK * BLOCKS * samples..].chunks_exact(samples);
             let line = y % BLOCK * BLOCK;
-            // Four pixels at a time: a copy of constant length is an instruction, any other a call.
-            let (whole, rest) = row.as_chunks_mut::<BLOCK>();
-            let split = whole.len();
-            for (pixels, block) in whole.iter_mut().zip(blocks) {
-                *pixels = [block[line], block[line + 1], block[line + 2], block[line + 3]];
-            }
-            if let Some(block) = blocks.get(split) {
-                rest.copy_from_slice(&block[line..line + rest.len()]);
+            for (pixels, block) in row.chunks_mut(BLOCK).zip(blocks) {
+                let block = &block[0].0;
+                // Four pixels at a time: a copy of constant length is an instruction, any other a call.
+                match pixels.first_chunk_mut::<BLOCK>() {
+                    Some(four) => *four = [block[line], block[line + 1], block[line + 2], block[line + 3]],
+                    None => pixels.copy_from_slice(&block[line..line + pixels.len()]),
+                }
             }
         }
         let mut covered = 0;
-        for (i, depth) in self.depth.iter().enumerate() {
-            let drawn = f32x16::load_array_ref(simd, depth).simd_lt(f32x16::splat(simd, NOTHING)).to_bitmask();
+        for (i, depth) in self.depth.iter().step_by(samples).enumerate() {
+            let drawn = f32x16::load_array_ref(simd, &depth.0).simd_lt(f32x16::splat(simd, NOTHING)).to_bitmask();
             // At the right and lower border of the picture, blocks reach beyond it.
             let (columns, lines) =
                 (width.saturating_sub(i % BLOCKS * BLOCK), height.saturating_sub(i / BLOCKS * BLOCK));

@@ -8,6 +8,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x16, mask32x16};
 
 use super::buffer::{BLOCK, BLOCKS};
+use super::samples::places;
 use crate::fill::SUBPIXEL_BITS;
 use crate::raster::project::ScreenVertex;
 use crate::simd::three;
@@ -18,12 +19,13 @@ const ONE: i64 = 1 << SUBPIXEL_BITS;
 /// 2 · 63 steps of 2²² stay below it.
 const FAR: i64 = 1 << 30;
 
-/// The edges of a triangle over a tile: inside where all of `a` x + `b` y + `c` ≥ 0, x and y pixels from the tile's corner.
+/// The edges of a triangle over a tile: inside where all of `a` x + `b` y + `c` ≥ 0, x and y pixels from the tile's corner; each
+/// sample of a pixel has a `c` of its own.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Edges {
+pub(super) struct Edges<const SAMPLES: usize> {
     pub(super) a: [i32; 3],
     pub(super) b: [i32; 3],
-    pub(super) c: [i32; 3],
+    pub(super) c: [[i32; 3]; SAMPLES],
 }
 
 /// The pixels that a triangle may touch, as a rectangle; the last ones are included.
@@ -34,11 +36,12 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// The pixels whose centres lie in the box around a triangle; `None` if there are none on a picture of `size`.
-    pub(super) fn of(v: &[ScreenVertex; 3], size: [i32; 2]) -> Option<Self> {
+    /// The pixels with a sample in the box around a triangle, or near to it; `None` if there are none on a picture of `size`.
+    /// Samples lie within `reach` sub-pixels of the centre.
+    pub(super) fn of(v: &[ScreenVertex; 3], size: [i32; 2], reach: i32) -> Option<Self> {
         let axis = |coordinates: [i32; 3], side: i32| {
             let [a, b, c] = coordinates;
-            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            let (low, high) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
             // Centres lie at (i + ½): the first at or after `low`, the last at or before `high`.
             let half = ONE as i32 / 2;
             [((low + half - 1) >> SUBPIXEL_BITS).max(0), ((high - half) >> SUBPIXEL_BITS).min(side - 1)]
@@ -48,11 +51,11 @@ impl Bounds {
     }
 }
 
-impl Edges {
+impl<const SAMPLES: usize> Edges<SAMPLES> {
     /// Of a triangle whose corners run clockwise on the screen, over the tile whose first pixel is `origin`.
     #[inline(always)]
     pub(super) fn new(v: &[ScreenVertex; 3], origin: [i32; 2]) -> Self {
-        let mut edges = Self { a: [0; 3], b: [0; 3], c: [0; 3] };
+        let mut edges = Self { a: [0; 3], b: [0; 3], c: [[0; 3]; SAMPLES] };
         let centre = origin.map(|o| i64::from(o) * ONE + ONE / 2);
         for i in 0..3 {
             // Edge i lies opposite to corner i.
@@ -62,8 +65,11 @@ impl Edges {
                 i64::from(dx) * (centre[1] - i64::from(from.y)) - i64::from(dy) * (centre[0] - i64::from(from.x));
             // Left edges go up, top edges go right; pixel centres on the others belong to the neighbour.
             let top_left = dy < 0 || (dy == 0 && dx > 0);
-            let floored = (value - i64::from(!top_left)) >> SUBPIXEL_BITS;
-            (edges.a[i], edges.b[i], edges.c[i]) = (-dy, dx, floored.clamp(-FAR, FAR) as i32);
+            (edges.a[i], edges.b[i]) = (-dy, dx);
+            for (c, [right, down]) in edges.c.iter_mut().zip(places::<SAMPLES>()) {
+                let value = value - i64::from(dy) * i64::from(right) + i64::from(dx) * i64::from(down);
+                c[i] = ((value - i64::from(!top_left)) >> SUBPIXEL_BITS).clamp(-FAR, FAR) as i32;
+            }
         }
         edges
     }
@@ -75,16 +81,22 @@ impl Edges {
         three!(i => x * self.a[i] + y * self.b[i])
     }
 
-    /// Which pixels of the block at column and row (`bx`, `by`) are inside.
+    /// Which pixels of the block at column and row (`bx`, `by`) have sample number `sample` inside.
     #[inline(always)]
-    pub(super) fn inside<S: Simd>(&self, simd: S, over_block: &[i32x16<S>; 3], bx: i32, by: i32) -> mask32x16<S> {
-        let size = BLOCK as i32;
-        let [e0, e1, e2] = three!(i => over_block[i] + (self.c[i] + size * (bx * self.a[i] + by * self.b[i])));
+    pub(super) fn inside<S: Simd>(
+        &self,
+        simd: S,
+        over_block: &[i32x16<S>; 3],
+        sample: usize,
+        [bx, by]: [i32; 2],
+    ) -> mask32x16<S> {
+        let (size, c) = (BLOCK as i32, &self.c[sample]);
+        let [e0, e1, e2] = three!(i => over_block[i] + (c[i] + size * (bx * self.a[i] + by * self.b[i])));
         // One negative value makes the sign of all negative.
         (e0 | e1 | e2).simd_ge(i32x16::splat(simd, 0))
     }
 
-    /// Of the blocks in row `by` of the tile: which may have pixels inside, and which lie inside altogether, a bit for each.
+    /// Of the blocks in row `by` of the tile: which may have samples inside, and which lie inside altogether, a bit for each.
     #[inline(always)]
     pub(super) fn row<S: Simd>(&self, simd: S, by: i32) -> (u32, u32) {
         let size = BLOCK as i32;
@@ -92,10 +104,14 @@ impl Edges {
         let mut some = i32x16::splat(simd, 0);
         let mut all = some;
         for i in 0..3 {
-            let values = column * (self.a[i] * size) + (self.c[i] + size * by * self.b[i]);
+            let values = column * (self.a[i] * size) + size * by * self.b[i];
             // The largest and the smallest value in a block are at corners that only the direction of the edge decides.
-            let most = (size - 1) * (self.a[i].max(0) + self.b[i].max(0));
-            let least = (size - 1) * (self.a[i].min(0) + self.b[i].min(0));
+            let (mut high, mut low) = (i32::MIN, i32::MAX);
+            for c in &self.c {
+                (high, low) = (high.max(c[i]), low.min(c[i]));
+            }
+            let most = high + (size - 1) * (self.a[i].max(0) + self.b[i].max(0));
+            let least = low + (size - 1) * (self.a[i].min(0) + self.b[i].min(0));
             some |= values + most;
             all |= values + least;
         }

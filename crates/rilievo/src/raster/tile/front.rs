@@ -7,6 +7,7 @@ use fearless_simd::{Level, Simd, dispatch, f32x16};
 
 use super::buffer::TILE;
 use super::cover::Bounds;
+use super::samples::Samples;
 use crate::par;
 use crate::raster::clip::clip;
 use crate::raster::project::{Projection, ScreenVertex};
@@ -28,7 +29,7 @@ pub struct Skipped {
     pub outside: u64,
     /// Turned away from the eye, where back faces are not drawn.
     pub back_facing: u64,
-    /// Without an area once snapped to the sub-pixel grid, or without a pixel centre.
+    /// Without an area once snapped to the sub-pixel grid, or between the places that are looked at.
     pub too_small: u64,
 }
 
@@ -163,6 +164,13 @@ pub(super) struct Front {
     pub(super) chunks: Vec<Chunk>,
 }
 
+impl Front {
+    /// Whether the object may touch a tile.
+    pub(super) fn touches(&self, number: usize) -> bool {
+        self.chunks.iter().any(|chunk| !chunk.of_tile(number).is_empty())
+    }
+}
+
 /// What a shader wants of each vertex, from the vertex and its 1/w.
 pub(super) trait Attributes<const N: usize>: Fn(&Vertex, f32) -> [f32; N] + Sync + Send {}
 impl<const N: usize, F: Fn(&Vertex, f32) -> [f32; N] + Sync + Send> Attributes<N> for F {}
@@ -174,7 +182,7 @@ impl Front {
         level: Level,
         object: &Object<'_>,
         projection: &Projection,
-        size: (u32, u32),
+        (size, samples): ((u32, u32), Samples),
         attributes: impl Attributes<N>,
     ) -> Skipped {
         self.project(level, object.mesh, projection, &attributes);
@@ -182,7 +190,7 @@ impl Front {
         let a_task = TRIANGLES_A_TASK.max(triangles.div_ceil(MOST_TASKS));
         let mut chunks = std::mem::take(&mut self.chunks);
         chunks.resize_with(triangles.div_ceil(a_task), Chunk::default);
-        let grid = Tiles::new(size);
+        let grid = Tiles::new(size, samples);
         par::for_each_row(&mut chunks, 1, |task, chunk| {
             let range = task * a_task..((task + 1) * a_task).min(triangles);
             self.bin(&mut chunk[0], range, object, projection, &grid, &attributes);
@@ -243,7 +251,7 @@ impl Front {
                 skipped.back_facing += 1;
                 return;
             }
-            let Some(bounds) = Bounds::of(&screen, grid.size) else {
+            let Some(bounds) = Bounds::of(&screen, grid.size, grid.reach) else {
                 skipped.too_small += 1;
                 return;
             };
@@ -291,14 +299,17 @@ impl Front {
 /// The tiles of a picture.
 pub(super) struct Tiles {
     size: [i32; 2],
+    /// See [`Samples::reach`].
+    reach: i32,
     pub(super) columns: u32,
     pub(super) rows: u32,
 }
 
 impl Tiles {
-    pub(super) fn new((width, height): (u32, u32)) -> Self {
+    pub(super) fn new((width, height): (u32, u32), samples: Samples) -> Self {
         let count = |side: u32| side.div_ceil(TILE as u32);
-        Self { size: [width as i32, height as i32], columns: count(width), rows: count(height) }
+        let (size, reach) = ([width as i32, height as i32], samples.reach());
+        Self { size, reach, columns: count(width), rows: count(height) }
     }
 }
 

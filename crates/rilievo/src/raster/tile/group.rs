@@ -9,6 +9,7 @@ use fearless_simd::{Simd, f32x16, i32x16};
 use super::buffer::TILE;
 use super::cover::Edges;
 use super::planes::{Plane, Sides};
+use super::samples::places;
 use crate::fill::SUBPIXEL_BITS;
 use crate::raster::project::ScreenVertex;
 use crate::simd::{LANES, three, two};
@@ -20,8 +21,8 @@ const ONE: i32 = 1 << SUBPIXEL_BITS;
 const NEAR: i32 = 48 * ONE;
 
 /// Triangles over a tile, planar. What is relative to the tile is so to the centre of its first pixel.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Group {
+#[derive(Debug, Clone)]
+pub(super) struct Group<const SAMPLES: usize> {
     /// Corners in sub-pixels, and their depths.
     x: [[i32; LANES]; 3],
     y: [[i32; LANES]; 3],
@@ -29,7 +30,7 @@ pub(super) struct Group {
     /// The edges, see [`Edges`].
     a: [[i32; LANES]; 3],
     b: [[i32; LANES]; 3],
-    c: [[i32; LANES]; 3],
+    c: [[[i32; LANES]; 3]; SAMPLES],
     /// First and last pixel, along x and along y.
     bounds: [[i32; LANES]; 4],
     /// From the first corner to the tile, in pixels.
@@ -41,7 +42,28 @@ pub(super) struct Group {
     depth_dy: [f32; LANES],
 }
 
-impl Group {
+impl<const SAMPLES: usize> Default for Group<SAMPLES> {
+    fn default() -> Self {
+        let (whole, real) = ([0; LANES], [0.0; LANES]);
+        Self {
+            x: [whole; 3],
+            y: [whole; 3],
+            z: [real; 3],
+            a: [whole; 3],
+            b: [whole; 3],
+            c: [[whole; 3]; SAMPLES],
+            bounds: [whole; 4],
+            start: [real; 2],
+            first: [real; 2],
+            second: [real; 2],
+            inv_area2: real,
+            depth_dx: real,
+            depth_dy: real,
+        }
+    }
+}
+
+impl<const SAMPLES: usize> Group<SAMPLES> {
     /// Puts a triangle into a lane. Its corners run clockwise on the screen.
     #[inline(always)]
     pub(super) fn set(&mut self, lane: usize, corners: &[ScreenVertex; 3]) {
@@ -65,10 +87,12 @@ impl Group {
             // At the tile's first pixel: the same as in `Edges::new`, in 32 bits.
             let value = dy * x[from] - dx * y[from];
             let top_left = dy.simd_lt(zero) | (dy.simd_eq(zero) & dx.simd_gt(zero));
-            let floored = (value - top_left.select(zero, zero + 1)) >> SUBPIXEL_BITS;
+            let value = value - top_left.select(zero, zero + 1);
             (-dy).store_array(&mut self.a[i]);
             dx.store_array(&mut self.b[i]);
-            floored.store_array(&mut self.c[i]);
+            for (c, [right, down]) in self.c.iter_mut().zip(places::<SAMPLES>()) {
+                ((value - dy * right + dx * down) >> SUBPIXEL_BITS).store_array(&mut c[i]);
+            }
         }
         self.set_planes(simd, x, y);
         let middle = (TILE as i32 / 2) * ONE;
@@ -79,19 +103,22 @@ impl Group {
             let lane = large.trailing_zeros() as usize;
             large &= large - 1;
             let corner = |i: usize| ScreenVertex { x: self.x[i][lane], y: self.y[i][lane], ..ScreenVertex::default() };
-            let edges = Edges::new(&[corner(0), corner(1), corner(2)], origin);
-            for i in 0..3 {
-                self.c[i][lane] = edges.c[i];
+            let edges = Edges::<SAMPLES>::new(&[corner(0), corner(1), corner(2)], origin);
+            for (c, values) in self.c.iter_mut().zip(edges.c) {
+                for i in 0..3 {
+                    c[i][lane] = values[i];
+                }
             }
         }
     }
 
-    /// The pixels of the tile whose centres lie between the corners, along one axis.
+    /// The pixels of the tile whose samples may lie between the corners, along one axis.
     #[inline(always)]
     fn set_bounds<S: Simd>(&mut self, simd: S, axis: usize, v: [i32x16<S>; 3]) {
         let (low, high) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
-        let first = ((low + (ONE - 1)) >> SUBPIXEL_BITS).max(i32x16::splat(simd, 0));
-        let last = (high >> SUBPIXEL_BITS).min(i32x16::splat(simd, TILE as i32 - 1));
+        let reach = places::<SAMPLES>().iter().flatten().fold(0, |reach, &p| p.max(reach));
+        let first = ((low + (ONE - 1 - reach)) >> SUBPIXEL_BITS).max(i32x16::splat(simd, 0));
+        let last = ((high + reach) >> SUBPIXEL_BITS).min(i32x16::splat(simd, TILE as i32 - 1));
         first.store_array(&mut self.bounds[axis]);
         last.store_array(&mut self.bounds[axis + 1]);
     }
@@ -118,8 +145,12 @@ impl Group {
 
     /// The edges of a triangle.
     #[inline(always)]
-    pub(super) fn edges(&self, lane: usize) -> Edges {
-        Edges { a: three!(i => self.a[i][lane]), b: three!(i => self.b[i][lane]), c: three!(i => self.c[i][lane]) }
+    pub(super) fn edges(&self, lane: usize) -> Edges<SAMPLES> {
+        let mut c = [[0; 3]; SAMPLES];
+        for (values, lanes) in c.iter_mut().zip(&self.c) {
+            *values = three!(i => lanes[i][lane]);
+        }
+        Edges { a: three!(i => self.a[i][lane]), b: three!(i => self.b[i][lane]), c }
     }
 
     /// First and last pixel of the tile that a triangle may touch, along x and along y.

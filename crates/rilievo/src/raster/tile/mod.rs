@@ -1,9 +1,10 @@
 //! The fast renderer: tiles of 64 × 64 pixels, blocks of 4 × 4, sixteen lanes.
 //!
 //! A frame runs in two steps. The `front` projects vertices sixteen at a time and sorts triangles into tiles; then each tile
-//! is drawn by itself, depth and colour in the nearest cache, and copied to the picture once. Within a tile a triangle is
-//! looked at row by row of blocks: which may have pixels inside, which lie inside altogether, which are hidden (`cover`,
-//! `batch`). What is left is shaded sixteen pixels at a time by the method's room in `shade`, and encoded there.
+//! is drawn by itself, depth and colour in the nearest cache, and copied to the picture once. Within a tile it is first found out
+//! which triangle is seen where (`visible`): row by row of blocks, which may have pixels inside, which lie inside altogether
+//! (`cover`), which are hidden. Then each block of sixteen pixels is shaded (`batch`) by the method's room in `shade`, once, whatever
+//! triangles meet in it: hidden pixels cost no light, and fine meshes leave no lanes idle.
 //!
 //! One source serves every instruction set; which one is chosen once for each tile. Coverage is that of the reference to the
 //! pixel, by the same snapped vertices and the same whole numbers; colours are within a tolerance that
@@ -18,10 +19,13 @@ mod front;
 mod group;
 mod maps;
 mod planes;
+mod samples;
 mod shade;
 mod texture;
+mod visible;
 
 pub use front::Skipped;
+pub use samples::Samples;
 
 use fearless_simd::Level;
 use glam::Vec2;
@@ -34,6 +38,7 @@ use self::shade::{
     Base, Exact, Filtered, Finish, General, Glossy, Nearest, Pixelwise, Relief, Shades, Static, Terms, Vectors,
 };
 use self::texture::Look;
+use self::visible::Owners;
 use crate::color::{LinearRgb, Picture, Rgba8};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -51,6 +56,8 @@ pub struct Options {
     pub method: Method,
     /// How a pixel gathers texels.
     pub filter: TextureFilter,
+    /// How many places of a pixel are looked at.
+    pub samples: Samples,
     /// What shows where nothing is drawn; transparent without it.
     pub background: Option<LinearRgb>,
 }
@@ -111,26 +118,31 @@ impl<'a> Renderer<'a> {
         let mut batches: Vec<Box<dyn Batch + '_>> = Vec::with_capacity(scene.objects.len());
         for (object, front) in scene.objects.iter().zip(&mut self.fronts) {
             let projection = Projection::new(&scene.camera, &object.pose, size);
-            let place = Place { level, object, projection, size, front };
+            let place = Place { level, object, projection, size: (size, options.samples), front };
             batches.push(choose(scene, options, maps, place, &mut drawn.skipped)?);
         }
         let background = word(options.background.map_or(Rgba8::default(), LinearRgb::to_srgb));
-        drawn.covered_pixels = draw_tiles(&batches, level, background, picture);
+        drawn.covered_pixels = draw_tiles(&batches, level, (background, options.samples), picture);
         Ok(drawn)
     }
 }
 
-fn draw_tiles(batches: &[Box<dyn Batch + '_>], level: Level, background: u32, picture: &mut Picture) -> u64 {
-    let tiles = Tiles::new(picture.size());
+fn draw_tiles(
+    batches: &[Box<dyn Batch + '_>],
+    level: Level,
+    (background, samples): (u32, Samples),
+    picture: &mut Picture,
+) -> u64 {
+    let tiles = Tiles::new(picture.size(), samples);
     let width = picture.width() as usize;
     let covered = std::sync::atomic::AtomicU64::new(0);
     par::for_each_row(picture.texels_mut(), width * TILE, |row, pixels| {
         let mut sum = 0;
-        let mut tile = Tile::new(background);
+        let (mut tile, mut owners, mut ranges) = (Tile::new(samples), Owners::new(), Vec::new());
         for column in 0..tiles.columns {
             let origin = [column as usize * TILE, row * TILE];
             let number = row * tiles.columns as usize + column as usize;
-            let mut touching = batches.iter().filter(|batch| batch.touches(number)).peekable();
+            let mut touching = batches.iter().filter(|batch| batch.front().touches(number)).peekable();
             if touching.peek().is_none() {
                 for row in pixels.chunks_mut(width) {
                     let row: &mut [u32] = bytemuck::cast_slice_mut(&mut row[origin[0]..(origin[0] + TILE).min(width)]);
@@ -139,8 +151,17 @@ fn draw_tiles(batches: &[Box<dyn Batch + '_>], level: Level, background: u32, pi
                 continue;
             }
             tile.clear(level, background);
+            owners.clear();
+            ranges.clear();
             for batch in touching {
-                batch.draw(level, &mut tile, number, origin.map(|o| o as i32));
+                let first = owners.len();
+                batch.front().cover(level, &mut tile, &mut owners, number, origin.map(|o| o as i32));
+                ranges.push((batch, first..owners.len()));
+            }
+            for (batch, range) in &ranges {
+                if !range.is_empty() {
+                    batch.shade(level, &mut tile, &owners[range.clone()], range.start as u32 + 1);
+                }
             }
             sum += tile.copy_to(level, pixels, width, origin[0]);
         }
@@ -154,7 +175,7 @@ struct Place<'f, 'o> {
     level: Level,
     object: &'o Object<'o>,
     projection: Projection,
-    size: (u32, u32),
+    size: ((u32, u32), Samples),
     front: &'f mut Front,
 }
 
@@ -188,6 +209,7 @@ fn choose<'s>(
     let read = |map: &Map<'_>| maps.find(map, options.filter).expect("invariant: all maps of the scene were read");
     let base = object.base_color.map(|base| Base { texture: read(&Map::Colors(base.levels)), look: look(base.repeat) });
     let finish = Finish { base, blend: object.blend };
+    let with_levels = options.filter == TextureFilter::Trilinear;
     let shading = shading(scene, object, options.method)?;
     let map = detail_map(&object.detail).map(|map| read(&map));
     match (shading, map) {
@@ -196,8 +218,8 @@ fn choose<'s>(
             if options.filter == TextureFilter::Nearest && base.is_none() {
                 return Ok(place.with(Nearest::new(indices, look(Vec2::ONE), front, back, object.blend), skipped));
             }
-            let shades = [Some(Shades::new(front)), back.map(Shades::new)];
-            Ok(place.with(Filtered { indices, look: look(Vec2::ONE), shades, finish }, skipped))
+            Ok(place
+                .with(Filtered { indices, look: look(Vec2::ONE), shades: Shades::new(front, back), finish }, skipped))
         }
         (Shading::Exact(exact), map) => {
             let relief = match (object.detail, map) {
@@ -217,10 +239,10 @@ fn choose<'s>(
             let Some(relief) = relief else { return Ok(pixelwise(Shading::Exact(exact), place, options, skipped)) };
             let (material, lighting, eye) = (&object.materials[number], exact.lighting(), exact.eye());
             if let Some(answer) = Glossy::new(material, lighting, eye) {
-                return Ok(place.with(Exact { relief, answer, eye, finish }, skipped));
+                return Ok(place.with(Exact { relief, answer, eye, finish, with_levels }, skipped));
             }
             let answer = General { material: Prepared::new(material, lighting), eye };
-            Ok(place.with(Exact { relief, answer, eye, finish }, skipped))
+            Ok(place.with(Exact { relief, answer, eye, finish, with_levels }, skipped))
         }
         (Shading::Interpolated(interpolated), map) => {
             let relief = match (object.detail, map) {
@@ -231,8 +253,8 @@ fn choose<'s>(
             match (relief, Terms::new(&object.materials[0], interpolated.lighting())) {
                 (Some(relief), Some(terms)) => {
                     let vertices = interpolated.vertices();
-                    let mesh = object.mesh;
-                    Ok(place.with(Vectors { relief, shading: interpolated, vertices, mesh, terms, finish }, skipped))
+                    let (mesh, shading) = (object.mesh, interpolated);
+                    Ok(place.with(Vectors { relief, shading, vertices, mesh, terms, finish, with_levels }, skipped))
                 }
                 _ => Ok(pixelwise(Shading::Interpolated(interpolated), place, options, skipped)),
             }

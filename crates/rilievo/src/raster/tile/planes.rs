@@ -7,7 +7,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};
 
-use crate::simd::{splat, three};
+use super::batch::Part;
+use crate::simd::splat;
 
 /// Two sides of a screen triangle from its first corner, and one over twice its area; pixels.
 #[derive(Debug, Clone, Copy)]
@@ -77,9 +78,17 @@ impl<const N: usize> Planes<N> {
         Plane { at_corner: self.at_corner[i], dx: self.dx[i], dy: self.dy[i] }
     }
 
-    /// Three that follow each other, at sixteen places.
+    /// Writes `M` that follow each other, from `first` on, into the pixels of a part.
     #[inline(always)]
-    pub(super) fn vector<S: Simd>(&self, simd: S, first: usize, x: f32x16<S>, y: f32x16<S>) -> [f32x16<S>; 3] {
-        three!(i => self.get(first + i).at(simd, x, y))
+    pub(super) fn enter<S: Simd, U, const M: usize>(
+        &self,
+        simd: S,
+        part: &Part<'_, S, U>,
+        first: usize,
+        values: &mut [f32x16<S>; M],
+    ) {
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = part.lanes.select(self.get(first + i).at(simd, part.x, part.y), *value);
+        }
     }
 }

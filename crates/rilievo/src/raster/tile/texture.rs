@@ -4,13 +4,15 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x16, u32x16};
 use glam::Vec2;
 
+use super::batch::Part;
+use super::planes::Planes;
 use crate::color::LinearRgb;
 use crate::grid::{Edges, Grid};
 use crate::light::Shade;
 use crate::mip::MipChain;
 use crate::normal::{Normal, Space, decode_u8, encode_u8};
 use crate::raster::texture::TextureFilter;
-use crate::simd::{gather, gather_u16, log2, recip, splat, three, two};
+use crate::simd::{Vec3x16, gather, gather_u16, log2, recip, splat, splat3, three, two};
 
 /// Words of a level in [`Texture::levels`]: where it begins, its width, its height.
 const LEVEL_WORDS: u32 = 3;
@@ -41,14 +43,14 @@ enum Format {
     Shade,
 }
 
-/// Where a pixel looks a map up: texture coordinates, and their change to the next pixel to the right and below.
+/// Where a pixel looks a map up.
 #[derive(Clone, Copy)]
 pub(super) struct Footprint<S: Simd> {
     pub(super) uv: [f32x16<S>; 2],
-    pub(super) dx: [f32x16<S>; 2],
-    pub(super) dy: [f32x16<S>; 2],
     pub(super) w: f32x16<S>,
     pub(super) inv_w: f32x16<S>,
+    /// Changes of u/w, v/w and 1/w to the next pixel to the right and below; for mip levels.
+    slopes: [Vec3x16<S>; 2],
 }
 
 /// Up to eight texels a pixel, and how much of each: two levels of four.
@@ -368,31 +370,50 @@ fn bilinear<S: Simd>(
 /// log2 of the longer side of the pixel's footprint in texels of the full-size level.
 #[inline(always)]
 fn level_of_detail<S: Simd>(simd: S, at: &Footprint<S>, size: [f32x16<S>; 2]) -> f32x16<S> {
-    let (dx, dy) = (two!(k => at.dx[k] * size[k]), two!(k => at.dy[k] * size[k]));
+    // d(a / b) = (da − a / b · db) / b, at the pixel itself.
+    let change = two!(i => two!(k => (at.slopes[i][k] - at.uv[k] * at.slopes[i][2]) * at.w * size[k]));
+    let [dx, dy] = change;
     let longest = dx[0].mul_add(dx[0], dx[1] * dx[1]).max(dy[0].mul_add(dy[0], dy[1] * dy[1]));
     let longest = longest.max(splat(simd, 1e-30)).min(splat(simd, 1e30));
     log2(simd, longest) * 0.5
 }
 
-/// A footprint from planes: u/w, v/w and 1/w, as attributes of that order from `first` on.
-#[inline(always)]
-pub(super) fn footprint<S: Simd, const N: usize>(
-    simd: S,
-    planes: &super::planes::Planes<N>,
-    first: usize,
-    x: f32x16<S>,
-    y: f32x16<S>,
-) -> Footprint<S> {
-    let [u, v, w] = three!(i => planes.get(first + i));
-    let inv_w = w.at(simd, x, y);
-    let depth = recip(inv_w);
-    let uv = [u.at(simd, x, y) * depth, v.at(simd, x, y) * depth];
-    // d(a / b) = (da − a / b · db) / b, at the pixel itself.
-    Footprint {
-        dx: [(u.dx - uv[0] * w.dx) * depth, (v.dx - uv[1] * w.dx) * depth],
-        dy: [(u.dy - uv[0] * w.dy) * depth, (v.dy - uv[1] * w.dy) * depth],
-        uv,
-        w: depth,
-        inv_w,
+/// The footprints of a block, put together part by part.
+pub(super) struct Footprints<S: Simd> {
+    /// u/w, v/w and 1/w.
+    at: Vec3x16<S>,
+    slopes: [Vec3x16<S>; 2],
+}
+
+impl<S: Simd> Footprints<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        Self { at: splat3(simd, [0.0; 3]), slopes: [splat3(simd, [0.0; 3]); 2] }
+    }
+
+    /// Enters a part, by its first three planes: u/w, v/w and 1/w. Slopes are only wanted `with_levels`.
+    #[inline(always)]
+    pub(super) fn add<const N: usize, U>(
+        &mut self,
+        simd: S,
+        planes: &Planes<N>,
+        part: &Part<'_, S, U>,
+        with_levels: bool,
+    ) {
+        planes.enter(simd, part, 0, &mut self.at);
+        if with_levels {
+            for k in 0..3 {
+                let plane = planes.get(k);
+                self.slopes[0][k] = part.lanes.select(splat(simd, plane.dx), self.slopes[0][k]);
+                self.slopes[1][k] = part.lanes.select(splat(simd, plane.dy), self.slopes[1][k]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn get(self) -> Footprint<S> {
+        let [u, v, inv_w] = self.at;
+        let w = recip(inv_w);
+        Footprint { uv: [u * w, v * w], w, inv_w, slopes: self.slopes }
     }
 }

@@ -13,8 +13,8 @@ use super::{Finish, mean};
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
-use crate::raster::tile::texture::{Footprint, Look, Texture, footprint};
-use crate::simd::{Vec3x16, cross, dot, gather, splat, three};
+use crate::raster::tile::texture::{Footprint, Footprints, Look, Texture};
+use crate::simd::{Vec3x16, cross, dot, gather, scale, splat, splat3, three};
 
 /// Texture coordinates and 1/w, the way to the eye, normal, tangent, sign of the bitangent; up to whole vectors.
 const ATTRIBUTES: usize = 16;
@@ -38,6 +38,8 @@ pub(in crate::raster::tile) struct Exact<'a, A> {
     pub(in crate::raster::tile) answer: A,
     pub(in crate::raster::tile) eye: Vec3,
     pub(in crate::raster::tile) finish: Finish<'a>,
+    /// Whether maps have mip levels.
+    pub(in crate::raster::tile) with_levels: bool,
 }
 
 /// A triangle.
@@ -68,11 +70,26 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
     }
 
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>) -> u32x16<S> {
-        let planes = &set_up.planes;
-        let at = footprint(simd, planes, 0, block.x, block.y);
-        let normal = self.normal(simd, set_up, block, &at);
-        let to_eye = planes.vector(simd, EYE, block.x, block.y);
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+        let mut footprints = Footprints::new(simd);
+        let [mut to_eye, mut smooth, mut tangent] = [splat3(simd, [0.0; 3]); 3];
+        let (mut sign, mut side, mut behind) = (splat(simd, 1.0), splat(simd, 1.0), false);
+        for i in 0..block.parts() {
+            let part = block.part(simd, i);
+            let SetUp { planes, sign: of_part, back_facing } = part.set_up;
+            footprints.add(simd, planes, &part, self.with_levels);
+            planes.enter(simd, &part, EYE, &mut to_eye);
+            planes.enter(simd, &part, NORMAL, &mut smooth);
+            planes.enter(simd, &part, TANGENT, &mut tangent);
+            sign = part.lanes.select(splat(simd, *of_part), sign);
+            if *back_facing {
+                behind = true;
+                side = part.lanes.select(splat(simd, -1.0), side);
+            }
+        }
+        let at = footprints.get();
+        let normal = self.normal(simd, &at, &Frame { smooth, tangent, sign });
+        let normal = if behind { scale(normal, side) } else { normal };
         let [diffuse, specular] = self.answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w });
         self.finish.encode(simd, diffuse, specular, &at)
     }
@@ -81,8 +98,8 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
 impl<A> Exact<'_, A> {
     /// The normal under each pixel, not normalised.
     #[inline(always)]
-    fn normal<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>, at: &Footprint<S>) -> Vec3x16<S> {
-        let smooth = set_up.planes.vector(simd, NORMAL, block.x, block.y);
+    fn normal<S: Simd>(&self, simd: S, at: &Footprint<S>, frame: &Frame<S>) -> Vec3x16<S> {
+        let smooth = frame.smooth;
         let sum = match &self.relief {
             Relief::Smooth => smooth,
             Relief::Tangent(texture, look) | Relief::Object(texture, look) => {
@@ -94,7 +111,7 @@ impl<A> Exact<'_, A> {
                     #[inline(always)]
                     |texel| texture.vector(simd, texel, true),
                 );
-                if matches!(self.relief, Relief::Tangent(..)) { bend(simd, set_up, block, at, smooth, n) } else { n }
+                if matches!(self.relief, Relief::Tangent(..)) { frame.bend(at.w, n) } else { n }
             }
             Relief::Indexed(texture, look, normals) => mean(
                 simd,
@@ -110,24 +127,26 @@ impl<A> Exact<'_, A> {
         };
         // Where normals cancel, the mesh's own.
         let gone = dot(sum, sum).simd_lt(splat(simd, 1e-20));
-        let sum = if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum };
-        if set_up.back_facing { three!(k => -sum[k]) } else { sum }
+        if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum }
     }
 }
 
-/// A tangent-space normal in object space, by the interpolated frame as it is (MikkTSpace).
-#[inline(always)]
-fn bend<S: Simd>(
-    simd: S,
-    set_up: &SetUp,
-    block: &Block<S>,
-    at: &Footprint<S>,
-    normal: Vec3x16<S>,
-    n: Vec3x16<S>,
-) -> Vec3x16<S> {
-    let tangent = set_up.planes.vector(simd, TANGENT, block.x, block.y);
-    // The cross product of two vectors that are both divided by w has one division too many.
-    let bitangent = cross(normal, tangent);
-    let up = n[1] * (at.w * set_up.sign);
-    three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, normal[k] * n[2])))
+/// The frames of sixteen pixels, interpolated and divided by w.
+struct Frame<S: Simd> {
+    smooth: Vec3x16<S>,
+    tangent: Vec3x16<S>,
+    /// Of the bitangent.
+    sign: f32x16<S>,
+}
+
+impl<S: Simd> Frame<S> {
+    /// A tangent-space normal in object space, by the interpolated frame as it is (MikkTSpace).
+    #[inline(always)]
+    fn bend(&self, w: f32x16<S>, n: Vec3x16<S>) -> Vec3x16<S> {
+        let Self { smooth, tangent, sign } = self;
+        // The cross product of two vectors that are both divided by w has one division too many.
+        let bitangent = cross(*smooth, *tangent);
+        let up = n[1] * (w * *sign);
+        three!(k => tangent[k].mul_add(n[0], bitangent[k].mul_add(up, smooth[k] * n[2])))
+    }
 }

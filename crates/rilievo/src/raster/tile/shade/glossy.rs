@@ -91,6 +91,12 @@ impl Terms {
         Some(Self { even: array(even), colors, power: highlight.map(|(_, shininess)| Power::new(shininess)) })
     }
 
+    /// How many lights there are.
+    #[inline(always)]
+    pub(in crate::raster::tile) fn lights(&self) -> usize {
+        self.colors.len()
+    }
+
     /// Light that is the same for all normals: diffuse, and no specular yet.
     #[inline(always)]
     pub(in crate::raster::tile) fn start<S: Simd>(&self, simd: S) -> [Vec3x16<S>; 2] {

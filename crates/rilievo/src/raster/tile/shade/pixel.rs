@@ -63,24 +63,33 @@ impl Shader<1> for Pixelwise<'_> {
         }
     }
 
-    fn shade<S: Simd>(&self, simd: S, set_up: &Weights, block: &Block<S>) -> u32x16<S> {
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, Weights>) -> u32x16<S> {
         let mut colors = [0; 16];
-        let mut left = block.visible.to_bitmask();
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let (x, y) = (block.x[lane], block.y[lane]);
-            let fragment = set_up.fragment(x, y);
-            let shade = match &self.shading {
-                Shading::Interpolated(shading) => shading.shade_by(&fragment, self.sampling, |light| {
-                    set_up.fields.get(light).map_or_else(Rotated::default, |field| field.at(x, y))
-                }),
-                other => shade(other, &fragment, self.sampling),
-            };
-            let base = base_color(self.object, &fragment, self.sampling);
-            colors[lane] = word(shade.over(base, self.object.blend).to_srgb());
+        for i in 0..block.parts() {
+            let part = block.part(simd, i);
+            let mut left = part.lanes.to_bitmask();
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                colors[lane] = self.color(part.set_up, part.x[lane], part.y[lane]);
+            }
         }
         colors.simd_into(simd)
+    }
+}
+
+impl Pixelwise<'_> {
+    /// The encoded colour of a pixel.
+    fn color(&self, set_up: &Weights, x: f32, y: f32) -> u32 {
+        let fragment = set_up.fragment(x, y);
+        let shade = match &self.shading {
+            Shading::Interpolated(shading) => shading.shade_by(&fragment, self.sampling, |light| {
+                set_up.fields.get(light).map_or_else(Rotated::default, |field| field.at(x, y))
+            }),
+            other => shade(other, &fragment, self.sampling),
+        };
+        let base = base_color(self.object, &fragment, self.sampling);
+        word(shade.over(base, self.object.blend).to_srgb())
     }
 }
 

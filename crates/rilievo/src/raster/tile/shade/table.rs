@@ -1,15 +1,16 @@
 //! Index map and shade table (Tarini et al. 2000, § 5).
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16, u32x16};
+use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
 
 use super::Finish;
 use crate::light::{Blend, ShadeTable};
+use crate::raster::texture::TextureFilter;
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::buffer::word;
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
-use crate::raster::tile::texture::{Look, Texture, footprint, largest, read_shade, shade_words};
+use crate::raster::tile::texture::{Footprint, Footprints, Look, Texture, largest, read_shade, shade_words};
 use crate::simd::{gather, three};
 
 /// Texture coordinates and 1/w.
@@ -19,12 +20,33 @@ fn attributes(vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
     [vertex.uv.x * inv_w, vertex.uv.y * inv_w, inv_w]
 }
 
+/// A triangle: where its texels are, and whether it is seen from behind.
+type SetUp = (Planes<ATTRIBUTES>, bool);
+
+/// The footprints of a block, and its pixels that are seen from behind.
+#[inline(always)]
+fn surface<S: Simd>(simd: S, block: &Block<'_, S, SetUp>, look: &Look) -> (Footprint<S>, mask32x16<S>) {
+    let mut surface = Footprints::new(simd);
+    let mut behind = mask32x16::splat(simd, false);
+    for i in 0..block.parts() {
+        let part = block.part(simd, i);
+        let (planes, back) = part.set_up;
+        surface.add(simd, planes, &part, look.filter == TextureFilter::Trilinear);
+        if *back {
+            behind |= part.lanes;
+        }
+    }
+    (surface.get(), behind)
+}
+
 /// One look-up a pixel: colours are encoded in the table already.
 pub(in crate::raster::tile) struct Nearest<'a> {
     pub(in crate::raster::tile) indices: &'a Texture,
     pub(in crate::raster::tile) look: Look,
-    /// Encoded colours of front and back faces.
-    pub(in crate::raster::tile) colors: [Vec<u32>; 2],
+    /// Encoded colours of front faces, and then those of back faces.
+    colors: Vec<u32>,
+    /// How many entries the map has.
+    entries: u32,
 }
 
 impl<'a> Nearest<'a> {
@@ -36,40 +58,37 @@ impl<'a> Nearest<'a> {
         back: Option<&ShadeTable>,
         blend: Blend,
     ) -> Self {
-        let encoded = |table: &ShadeTable| {
-            let entries = table.entries().iter();
-            entries.map(|shade| word(shade.over(crate::LinearRgb::WHITE, blend).to_srgb())).collect()
-        };
-        Self { indices, look, colors: [encoded(front), back.map_or_else(|| vec![0], encoded)] }
+        let both = front.entries().iter().chain(back.into_iter().flat_map(ShadeTable::entries));
+        let colors = both.map(|shade| word(shade.over(crate::LinearRgb::WHITE, blend).to_srgb())).collect();
+        Self { indices, look, colors, entries: front.entries().len() as u32 }
     }
 }
 
 impl Shader<ATTRIBUTES> for Nearest<'_> {
-    type SetUp = (Planes<ATTRIBUTES>, bool);
+    type SetUp = SetUp;
 
     fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
         attributes(vertex, inv_w)
     }
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> Self::SetUp {
+    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> SetUp {
         (seen.sides.planes(seen.attributes), seen.triangle.back_facing())
     }
 
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, (planes, back): &Self::SetUp, block: &Block<S>) -> u32x16<S> {
-        let at = footprint(simd, planes, 0, block.x, block.y);
-        let mut color = u32x16::splat(simd, 0);
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+        let (at, behind) = surface(simd, block, &self.look);
+        let mut entry = u32x16::splat(simd, 0);
         self.indices.taps(
             simd,
             &self.look,
             &at,
             #[inline(always)]
-            |texel, _| {
-                color = gather(simd, &self.colors[usize::from(*back)], self.indices.index(simd, texel));
-            },
+            |texel, _| entry = self.indices.index(simd, texel),
         );
-        color
+        entry = behind.select(entry + self.entries, entry);
+        gather(simd, &self.colors, entry)
     }
 }
 
@@ -77,12 +96,17 @@ impl Shader<ATTRIBUTES> for Nearest<'_> {
 pub(in crate::raster::tile) struct Shades {
     words: Vec<u32>,
     largest: f32,
+    /// How many entries the map has; those for back faces follow, if there are any.
+    entries: u32,
 }
 
 impl Shades {
-    pub(in crate::raster::tile) fn new(table: &ShadeTable) -> Self {
-        let largest = largest(table.entries().iter());
-        Self { words: table.entries().iter().flat_map(|shade| shade_words(shade, largest)).collect(), largest }
+    /// Of the shades of front faces, and of back faces where they are drawn.
+    pub(in crate::raster::tile) fn new(front: &ShadeTable, back: Option<&ShadeTable>) -> Self {
+        let both = || front.entries().iter().chain(back.into_iter().flat_map(ShadeTable::entries));
+        let largest = largest(both());
+        let words = both().flat_map(|shade| shade_words(shade, largest)).collect();
+        Self { words, largest, entries: front.entries().len() as u32 }
     }
 }
 
@@ -90,35 +114,36 @@ impl Shades {
 pub(in crate::raster::tile) struct Filtered<'a> {
     pub(in crate::raster::tile) indices: &'a Texture,
     pub(in crate::raster::tile) look: Look,
-    /// Of front and back faces; without back faces one is enough.
-    pub(in crate::raster::tile) shades: [Option<Shades>; 2],
+    pub(in crate::raster::tile) shades: Shades,
     pub(in crate::raster::tile) finish: Finish<'a>,
 }
 
 impl Shader<ATTRIBUTES> for Filtered<'_> {
-    type SetUp = (Planes<ATTRIBUTES>, bool);
+    type SetUp = SetUp;
 
     fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
         attributes(vertex, inv_w)
     }
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> Self::SetUp {
+    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> SetUp {
         (seen.sides.planes(seen.attributes), seen.triangle.back_facing())
     }
 
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, (planes, back): &Self::SetUp, block: &Block<S>) -> u32x16<S> {
-        let at = footprint(simd, planes, 0, block.x, block.y);
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+        let (at, behind) = surface(simd, block, &self.look);
         let mut sums = [f32x16::splat(simd, 0.0); 6];
-        let Some(shades) = &self.shades[usize::from(*back)] else { return u32x16::splat(simd, 0) };
+        let shades = &self.shades;
+        // Where the table of a pixel begins.
+        let table = behind.select(u32x16::splat(simd, shades.entries), u32x16::splat(simd, 0));
         self.indices.taps(
             simd,
             &self.look,
             &at,
             #[inline(always)]
             |texel, weight| {
-                let shade = read_shade(simd, &shades.words, self.indices.index(simd, texel), shades.largest);
+                let shade = read_shade(simd, &shades.words, self.indices.index(simd, texel) + table, shades.largest);
                 for k in 0..6 {
                     sums[k] = shade[k].mul_add(weight, sums[k]);
                 }
@@ -136,20 +161,20 @@ pub(in crate::raster::tile) struct Static<'a> {
 }
 
 impl Shader<ATTRIBUTES> for Static<'_> {
-    type SetUp = Planes<ATTRIBUTES>;
+    type SetUp = SetUp;
 
     fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
         attributes(vertex, inv_w)
     }
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> Self::SetUp {
-        seen.sides.planes(seen.attributes)
+    fn set_up(&self, seen: &Seen<'_, ATTRIBUTES>) -> SetUp {
+        (seen.sides.planes(seen.attributes), false)
     }
 
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, planes: &Self::SetUp, block: &Block<S>) -> u32x16<S> {
-        let at = footprint(simd, planes, 0, block.x, block.y);
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+        let (at, _) = surface(simd, block, &self.look);
         let mut sums = [f32x16::splat(simd, 0.0); 6];
         self.shades.taps(
             simd,

@@ -7,12 +7,12 @@ use glam::Vec3;
 use super::glossy::{Products, Terms};
 use super::{Finish, mean};
 use crate::raster::reference::Interpolated;
-use crate::raster::tile::batch::{Block, Seen, Shader};
+use crate::raster::tile::batch::{Block, Part, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
-use crate::raster::tile::texture::{Look, Texture, footprint};
+use crate::raster::tile::texture::{Footprints, Look, Texture};
 use crate::raster::vectors::{Field, Linear, Quadratic, Rotated, Vertices};
-use crate::simd::{Vec3x16, dot, rsqrt, splat, splat3, three};
+use crate::simd::{Vec3x16, dot, rsqrt, splat, three};
 
 /// Texture coordinates and 1/w.
 const ATTRIBUTES: usize = 3;
@@ -26,6 +26,8 @@ pub(in crate::raster::tile) struct Vectors<'a> {
     pub(in crate::raster::tile) mesh: &'a crate::surface::Mesh,
     pub(in crate::raster::tile) terms: Terms,
     pub(in crate::raster::tile) finish: Finish<'a>,
+    /// Whether maps have mip levels.
+    pub(in crate::raster::tile) with_levels: bool,
 }
 
 /// A triangle.
@@ -54,10 +56,16 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
     }
 
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, set_up: &SetUp, block: &Block<S>) -> u32x16<S> {
-        let at = footprint(simd, &set_up.planes, 0, block.x, block.y);
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+        let (mut footprints, mut side) = (Footprints::new(simd), splat(simd, 1.0));
+        for i in 0..block.parts() {
+            let part = block.part(simd, i);
+            footprints.add(simd, &part.set_up.planes, &part, self.with_levels);
+            side = part.lanes.select(splat(simd, part.set_up.side), side);
+        }
+        let at = footprints.get();
         let normal = match self.relief {
-            None => splat3(simd, [0.0, 0.0, set_up.side]),
+            None => [splat(simd, 0.0), splat(simd, 0.0), side],
             Some((texture, look)) => {
                 let n = mean(
                     simd,
@@ -67,30 +75,30 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
                     #[inline(always)]
                     |texel| texture.vector(simd, texel, true),
                 );
-                let length = rsqrt(simd, dot(n, n).max(splat(simd, 1e-20))) * set_up.side;
+                let length = rsqrt(simd, dot(n, n).max(splat(simd, 1e-20))) * side;
                 three!(k => n[k] * length)
             }
         };
         let mut sum = self.terms.start(simd);
-        for (light, field) in set_up.fields.iter().enumerate() {
-            let products = match field {
-                Field::Linear(field) => {
-                    let (l, h) = linear(simd, field, block);
-                    Products { light: dot(normal, l), half: dot(normal, h) }
+        for light in 0..self.terms.lights() {
+            let [mut light_cosine, mut half_cosine] = [splat(simd, 0.0); 2];
+            for i in 0..block.parts() {
+                let part = block.part(simd, i);
+                let Some(field) = part.set_up.fields.get(light) else { continue };
+                let (l, h) = match field {
+                    Field::Linear(field) => linear(simd, field, &part),
+                    Field::Normalized(field) => linear(simd, &field.vectors, &part),
+                    Field::Quadratic(field) => quadratic(simd, field, &part),
+                };
+                let (mut to_light, mut to_half) = (dot(normal, l), dot(normal, h));
+                if matches!(field, Field::Normalized(_)) {
+                    to_light *= inverse_length(simd, l);
+                    to_half *= inverse_length(simd, h);
                 }
-                Field::Normalized(field) => {
-                    let (l, h) = linear(simd, &field.vectors, block);
-                    Products {
-                        light: dot(normal, l) * inverse_length(simd, l),
-                        half: dot(normal, h) * inverse_length(simd, h),
-                    }
-                }
-                Field::Quadratic(field) => {
-                    let (l, h) = quadratic(simd, field, block);
-                    Products { light: dot(normal, l), half: dot(normal, h) }
-                }
-            };
-            self.terms.add(simd, light, &products, &mut sum);
+                light_cosine = part.lanes.select(to_light, light_cosine);
+                half_cosine = part.lanes.select(to_half, half_cosine);
+            }
+            self.terms.add(simd, light, &Products { light: light_cosine, half: half_cosine }, &mut sum);
         }
         self.finish.encode(simd, sum[0], sum[1], &at)
     }
@@ -102,31 +110,31 @@ fn inverse_length<S: Simd>(simd: S, v: Vec3x16<S>) -> f32x16<S> {
 }
 
 #[inline(always)]
-fn linear<S: Simd>(simd: S, f: &Linear<Rotated>, block: &Block<S>) -> (Vec3x16<S>, Vec3x16<S>) {
+fn linear<S: Simd>(simd: S, f: &Linear<Rotated>, at: &Part<'_, S, SetUp>) -> (Vec3x16<S>, Vec3x16<S>) {
     let Linear { a, b, c } = f;
-    (linear3(simd, [a.light, b.light, c.light], block), linear3(simd, [a.half, b.half, c.half], block))
+    (linear3(simd, [a.light, b.light, c.light], at), linear3(simd, [a.half, b.half, c.half], at))
 }
 
 /// a x + b y + c.
 #[inline(always)]
-fn linear3<S: Simd>(simd: S, [a, b, c]: [Vec3; 3], block: &Block<S>) -> Vec3x16<S> {
-    let row = three!(k => splat(simd, b[k]).mul_add(block.y, splat(simd, c[k])));
-    three!(k => splat(simd, a[k]).mul_add(block.x, row[k]))
+fn linear3<S: Simd>(simd: S, [a, b, c]: [Vec3; 3], at: &Part<'_, S, SetUp>) -> Vec3x16<S> {
+    let row = three!(k => splat(simd, b[k]).mul_add(at.y, splat(simd, c[k])));
+    three!(k => splat(simd, a[k]).mul_add(at.x, row[k]))
 }
 
 #[inline(always)]
-fn quadratic<S: Simd>(simd: S, f: &Quadratic<Rotated>, block: &Block<S>) -> (Vec3x16<S>, Vec3x16<S>) {
+fn quadratic<S: Simd>(simd: S, f: &Quadratic<Rotated>, at: &Part<'_, S, SetUp>) -> (Vec3x16<S>, Vec3x16<S>) {
     let Quadratic { a, b, c, d, e, f } = f;
     (
-        quadratic3(simd, [a.light, b.light, c.light, d.light, e.light, f.light], block),
-        quadratic3(simd, [a.half, b.half, c.half, d.half, e.half, f.half], block),
+        quadratic3(simd, [a.light, b.light, c.light, d.light, e.light, f.light], at),
+        quadratic3(simd, [a.half, b.half, c.half, d.half, e.half, f.half], at),
     )
 }
 
 /// (a x + (c y + d)) x + ((b y + e) y + f): Horner's scheme; what has no x in it is the same along a row of blocks.
 #[inline(always)]
-fn quadratic3<S: Simd>(simd: S, [a, b, c, d, e, f]: [Vec3; 6], block: &Block<S>) -> Vec3x16<S> {
-    let slope = three!(k => splat(simd, c[k]).mul_add(block.y, splat(simd, d[k])));
-    let level = three!(k => splat(simd, b[k]).mul_add(block.y, splat(simd, e[k])).mul_add(block.y, splat(simd, f[k])));
-    three!(k => splat(simd, a[k]).mul_add(block.x, slope[k]).mul_add(block.x, level[k]))
+fn quadratic3<S: Simd>(simd: S, [a, b, c, d, e, f]: [Vec3; 6], at: &Part<'_, S, SetUp>) -> Vec3x16<S> {
+    let slope = three!(k => splat(simd, c[k]).mul_add(at.y, splat(simd, d[k])));
+    let level = three!(k => splat(simd, b[k]).mul_add(at.y, splat(simd, e[k])).mul_add(at.y, splat(simd, f[k])));
+    three!(k => splat(simd, a[k]).mul_add(at.x, slope[k]).mul_add(at.x, level[k]))
 }
