@@ -1,66 +1,65 @@
 //! From a surface and its maps, as the user names them, to what the renderer draws.
 
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+mod load;
 
-use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use glam::Vec2;
-use rilievo::height::HeightMap;
 use rilievo::light::Material;
-use rilievo::normal::{NormalLevels, NormalMap, normal_levels};
-use rilievo::quantize::{self, Effort, Options};
-use rilievo::raster::{BaseColor, Detail, Method};
+use rilievo::normal::NormalLevels;
+use rilievo::raster::{BaseColor, Detail};
 use rilievo::sample::vase;
-use rilievo::surface::{Deflected, Mesh, deflect_heights, deflect_normals};
-use rilievo::{Edges, Grid, LinearRgb, MaterialMap, MipChain, Object, QuantizedMap, Tangent};
-use rilievo_io::{AnyIndexed, ImportAs, SpaceKind};
+use rilievo::surface::Mesh;
+use rilievo::{Edges, LinearRgb, MipChain, Object, QuantizedMap, Tangent};
+use rilievo_io::SpaceKind;
 
-use crate::args::{ConventionArg, EffortArg, Given, HeightArgs, OntoArgs, SpaceArg};
-use crate::exit::usage;
-use crate::progress::Bars;
+use crate::args::{ConventionArg, EffortArg, Given, HeightArgs, MethodKind, OntoArgs, SpaceArg};
 use crate::surface::{SURFACE_HELP, SurfaceArg};
-use crate::{exit, inputs};
 
-/// Width of the maps of the built-in vase.
-const VASE_WIDTH: u32 = 2048;
+pub(crate) use load::remark_overlaps;
 
-/// A surface and its maps.
+/// Entries of the table unless told otherwise.
+pub(crate) const DEFAULT_ENTRIES: u32 = 2048;
+/// How many entries a table may have.
+pub(crate) const ENTRIES: std::ops::RangeInclusive<u32> = 2..=65_536;
+
+/// A surface and its maps: flags of the command line, and keys of a scene file's objects.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct ReliefArgs {
-    #[arg(value_name = "MESH", help = SURFACE_HELP)]
+    #[arg(value_name = "MESH|SCENE", help = format!("{SURFACE_HELP}; or a scene file (.toml)"))]
     pub(crate) surface: SurfaceArg,
     /// A height map to emboss the surface with.
     #[arg(long, value_name = "MAP", group = "relief", help_heading = "Maps")]
-    height: Option<PathBuf>,
+    pub(crate) height: Option<PathBuf>,
     /// A normal map (see --space).
     #[arg(long, value_name = "MAP", group = "relief", help_heading = "Maps")]
-    normals: Option<PathBuf>,
+    pub(crate) normals: Option<PathBuf>,
     /// A quantised map: indexed PNG or KTX2.
     #[arg(long, value_name = "MAP", group = "relief", help_heading = "Maps")]
-    indexed: Option<PathBuf>,
+    pub(crate) indexed: Option<PathBuf>,
     /// A base colour texture.
     #[arg(long, value_name = "PICTURE", help_heading = "Maps")]
-    color: Option<PathBuf>,
+    pub(crate) color: Option<PathBuf>,
     /// A map of material numbers, of the size of the normal map.
     #[arg(long, value_name = "MAP", help_heading = "Maps")]
-    materials: Option<PathBuf>,
+    pub(crate) materials: Option<PathBuf>,
     /// The space of --normals, or of an --indexed palette made by another tool.
     #[arg(long, value_enum, default_value_t = SpaceArg::Tangent, help_heading = "Maps")]
-    space: SpaceArg,
+    pub(crate) space: SpaceArg,
     /// Which way green points in --normals, or in an --indexed palette made by another tool.
     #[arg(long, value_enum, default_value_t = ConventionArg::Gl, help_heading = "Maps")]
-    convention: ConventionArg,
+    pub(crate) convention: ConventionArg,
     #[command(flatten, next_help_heading = "Maps")]
-    heights: HeightArgs,
+    pub(crate) heights: HeightArgs,
     #[command(flatten, next_help_heading = "Maps")]
-    onto: OntoArgs,
+    pub(crate) onto: OntoArgs,
     /// Entries of the table (method table).
-    #[arg(short = 'n', long, value_name = "K", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(2..=65536))]
-    entries: u32,
+    #[arg(short = 'n', long, value_name = "K", default_value_t = DEFAULT_ENTRIES, value_parser = clap::value_parser!(u32).range(2..=65536))]
+    pub(crate) entries: u32,
     /// How hard the quantiser tries.
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
-    effort: EffortArg,
+    pub(crate) effort: EffortArg,
 }
 
 /// Everything the renderer needs of an object, owned.
@@ -139,52 +138,7 @@ impl Relief {
     }
 }
 
-/// What was read, before it is bent, quantised or filtered.
-enum Source {
-    Nothing,
-    /// Normals of the object, where they are true, and materials.
-    Object {
-        normals: NormalMap<Object>,
-        covered: Option<Grid<bool>>,
-    },
-    Tangent {
-        normals: NormalMap<Tangent>,
-        covered: Option<Grid<bool>>,
-    },
-    Indexed(AnyIndexed),
-}
-
 impl ReliefArgs {
-    /// Reads, bends and quantises what `method` needs.
-    pub(crate) fn load(&self, method: Method, given: &Given) -> Result<Relief> {
-        self.warn_of_unused(method, given);
-        let progress = Bars::new(self.surface.stem());
-        let samples =
-            (self.surface == SurfaceArg::Vase).then(|| progress.step("drawing the maps", || vase::maps(VASE_WIDTH)));
-        let samples = samples.transpose()?;
-        let own_relief = self.has_no_map();
-        if samples.is_some() && own_relief && (given.has("repeat") || given.has("map_size")) {
-            return Err(usage(
-                "the vase's own maps fit each other as they are; --repeat and --map-size are for maps you give",
-            ));
-        }
-        let mut materials: Option<MaterialMap> = self.materials.as_deref().map(inputs::materials).transpose()?;
-        if own_relief && materials.is_none() {
-            materials = samples.as_ref().map(|s| s.materials.clone());
-        }
-        let (mesh, source) = self.load_source(method, given, samples.as_ref(), &progress)?;
-        let repeat = self.onto.repeat(&self.surface);
-        let color = match (&self.color, &samples) {
-            (Some(path), _) => Some(inputs::picture(path)?),
-            (None, Some(samples)) => Some(samples.color.clone()),
-            (None, None) => None,
-        };
-        let base_color = color.map(|picture| (MipChain::from_picture(&picture), repeat));
-        let (detail, quantized) = self.finish(method, &mesh, source, materials, repeat, &progress)?;
-        let default_materials = if samples.is_some() { DefaultMaterials::Vase } else { DefaultMaterials::Plain };
-        Ok(Relief { mesh, detail, base_color, default_materials, quantized })
-    }
-
     /// Files this reads.
     pub(crate) fn files(&self) -> Vec<&Path> {
         let maps = [&self.height, &self.normals, &self.indexed, &self.color, &self.materials];
@@ -200,164 +154,28 @@ impl ReliefArgs {
         self.height.is_none() && self.normals.is_none() && self.indexed.is_none()
     }
 
-    fn warn_of_unused(&self, method: Method, given: &Given) {
-        let vase = self.surface == SurfaceArg::Vase && self.has_no_map();
+    fn warn_of_unused(&self, kind: MethodKind, given: &Given) {
+        let has_no_map = self.has_no_map();
+        let vase = self.surface == SurfaceArg::Vase && has_no_map;
         if self.normals.is_none() && self.indexed.is_none() {
-            given.unused(&["space", "convention"], "they are for --normals and --indexed");
+            given.unused(&["space", "convention"], "they are for normal maps and index maps");
         }
         if self.height.is_none() && !vase {
-            given.unused(&["depth", "filter"], "they are for --height");
+            given.unused(&["depth", "filter"], "they are for height maps");
         }
-        let object_space = SpaceKind::from(self.space) == SpaceKind::Object;
-        let bent =
-            self.height.is_some() || vase || (self.normals.is_some() && !object_space && method == Method::Table);
+        let tangent = self.normals.is_some() && SpaceKind::from(self.space) == SpaceKind::Tangent;
+        let bent = match kind {
+            MethodKind::Vectors => false,
+            MethodKind::Exact => self.height.is_some() || vase,
+            MethodKind::Table | MethodKind::Static => self.height.is_some() || has_no_map || tangent,
+        };
         if !bent {
             given.unused(&["map_size", "gutter"], "no map is bent onto the mesh");
         }
         if self.indexed.is_some() {
             given.unused(&["entries", "effort"], "the map is quantised already");
-        } else if method == Method::Exact {
-            given.unused(&["entries", "effort"], "the exact method needs no table");
+        } else if kind != MethodKind::Table {
+            given.unused(&["entries", "effort"], "only the table method needs a table");
         }
     }
-
-    fn load_source(
-        &self,
-        method: Method,
-        given: &Given,
-        samples: Option<&vase::VaseMaps>,
-        progress: &Bars,
-    ) -> Result<(Mesh, Source)> {
-        if let Some(path) = &self.height {
-            let (map, covered) = inputs::height_map(path, self.heights.depth)?;
-            let mesh = self.surface.load(map.heights().size())?;
-            let options = self.onto.options(&self.surface, map.heights().size())?;
-            let (filter, edges) = (self.heights.filter(), self.heights.edges());
-            let bent_map = deflect_heights(&mesh, &map, covered.as_ref(), filter, edges, &options, progress)?;
-            return Ok((mesh, bent(bent_map)));
-        }
-        if let Some(path) = &self.normals {
-            if SpaceKind::from(self.space) == SpaceKind::Object {
-                let image = inputs::normals::<Object>(path, self.convention.into(), false)?;
-                let mesh = self.surface.load(image.normals.size())?;
-                return Ok((mesh, Source::Object { normals: image.normals, covered: image.covered }));
-            }
-            let image = inputs::normals::<Tangent>(path, self.convention.into(), false)?;
-            let mesh = self.surface.load(image.normals.size())?.with_tangents();
-            let mesh = mesh.with_context(|| self.surface.stem())?;
-            if method == Method::Exact {
-                return Ok((mesh, Source::Tangent { normals: image.normals, covered: image.covered }));
-            }
-            let options = self.onto.options(&self.surface, image.normals.size())?;
-            let deflected = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress)?;
-            return Ok((mesh, bent(deflected)));
-        }
-        if let Some(path) = &self.indexed {
-            let source = inputs::open(path)?;
-            // For palettes made by other tools; our own files know.
-            let import = ImportAs {
-                space: given.has("space").then(|| self.space.into()),
-                convention: given.has("convention").then(|| self.convention.into()),
-            };
-            let map = inputs::indexed(&source, &import)?.map;
-            return Ok((self.surface.load(map.size())?, Source::Indexed(map)));
-        }
-        if let Some(samples) = samples {
-            let mesh = self.surface.load((1, 1))?;
-            let options = self.onto.options(&self.surface, samples.height.heights().size())?;
-            let depth = if given.has("depth") { self.heights.depth } else { samples.height.depth() };
-            let map = HeightMap::new(samples.height.heights().clone(), depth)?;
-            let (filter, edges) = (self.heights.filter(), self.heights.edges());
-            let deflected = deflect_heights(&mesh, &map, None, filter, edges, &options, progress)?;
-            return Ok((mesh, bent(deflected)));
-        }
-        Ok((self.surface.load((1, 1))?, Source::Nothing))
-    }
-
-    fn finish(
-        &self,
-        method: Method,
-        mesh: &Mesh,
-        source: Source,
-        materials: Option<MaterialMap>,
-        repeat: [f32; 2],
-        progress: &Bars,
-    ) -> Result<(OwnedDetail, Option<QuantizedReport>)> {
-        if materials.is_some() && matches!(source, Source::Nothing | Source::Indexed(_)) {
-            return Err(usage("--materials goes with --height or --normals; an indexed map has its own materials"));
-        }
-        match source {
-            Source::Nothing if method == Method::Table => {
-                Err(usage("the table method needs a map: give --height, --normals or --indexed, or use --method exact"))
-            }
-            Source::Nothing => Ok((OwnedDetail::Smooth, None)),
-            Source::Indexed(AnyIndexed::Object(map)) => Ok((OwnedDetail::Indexed(Box::new(map)), None)),
-            Source::Indexed(AnyIndexed::Tangent(map)) => {
-                let flat = mesh.clone().with_tangents()?.constant_frame();
-                let frame = flat.ok_or_else(|| {
-                    usage(
-                        "a tangent-space index map can only lie on a flat surface; make an object-space map for this \
-                         mesh with `rilievo normal --from normal --onto MESH` and quantise that",
-                    )
-                })?;
-                Ok((OwnedDetail::Indexed(Box::new(map.map_normals(|n| frame.to_object(n)))), None))
-            }
-            Source::Tangent { normals, covered } => {
-                let materials = fitted(materials, normals.size(), "normal map")?;
-                Ok((
-                    OwnedDetail::Tangent { levels: normal_levels(normals, materials, covered.as_ref())?, repeat },
-                    None,
-                ))
-            }
-            Source::Object { normals, covered } if method == Method::Table => {
-                let materials = fitted(materials, normals.size(), "object-space map")?;
-                let options = Options {
-                    entries: self.entries,
-                    effort: Effort::from(self.effort),
-                    materials: materials.as_ref(),
-                    covered: covered.as_ref(),
-                    mip_levels: true,
-                    ..Options::default()
-                };
-                let started = Instant::now();
-                let quantized = quantize::quantize(&normals, &options, progress)?;
-                let seconds = started.elapsed().as_secs_f64();
-                let entries = quantized.map.table().len();
-                let report = QuantizedReport { entries, error: quantized.error, seconds };
-                Ok((OwnedDetail::Indexed(Box::new(quantized.map)), Some(report)))
-            }
-            Source::Object { normals, covered } => {
-                let materials = fitted(materials, normals.size(), "object-space map")?;
-                Ok((OwnedDetail::Object { levels: normal_levels(normals, materials, covered.as_ref())? }, None))
-            }
-        }
-    }
-}
-
-fn bent(deflected: Deflected) -> Source {
-    remark_overlaps(&deflected);
-    Source::Object { normals: deflected.normals, covered: Some(deflected.covered) }
-}
-
-/// Tells of texels that belong to several triangles.
-pub(crate) fn remark_overlaps(deflected: &Deflected) {
-    if deflected.overlaps > 0 {
-        let message = format!(
-            "{} texels belong to several triangles (mirrored or overlapping UVs); an object-space map can only serve one",
-            deflected.overlaps
-        );
-        exit::warn("texture coordinates", &message);
-    }
-}
-
-/// A material map of the size of the map it goes with.
-fn fitted(materials: Option<MaterialMap>, size: (u32, u32), what: &str) -> Result<Option<MaterialMap>> {
-    let Some(map) = materials else { return Ok(None) };
-    if map.size() == size {
-        return Ok(Some(map));
-    }
-    let ((w, h), (mw, mh)) = (size, map.size());
-    Err(usage(format!(
-        "the material map is {mw} x {mh}, but the {what} is {w} x {h}; give both the same size (see --map-size)"
-    )))
 }
