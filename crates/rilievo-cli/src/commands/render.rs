@@ -302,3 +302,14 @@ fn remark_skipped(skipped: &Skipped, dropped: usize) {
         remark(format!("triangles left out: {}", told.join(", ")));
     }
 }
+
+/// What a command line of `render` asks for, its first word being the surface.
+#[cfg(test)]
+pub(crate) fn asked_for(words: &[&str]) -> SceneSpec {
+    use clap::{Args as _, FromArgMatches};
+
+    let program = clap::Command::new("rilievo").subcommand(Args::augment_args(clap::Command::new("render")));
+    let matches = program.clone().get_matches_from([&["rilievo", "render"], words].concat());
+    let render = matches.subcommand_matches("render").expect("that is the command");
+    Args::from_arg_matches(render).expect("these are flags of it").spec(&Given::of(&program, &matches))
+}

@@ -11,8 +11,8 @@ use crate::scene::{Lamp, LightSpec, Side};
 
 /// As the command line has it.
 const DEFAULT_SIDE: Side = Side {
-    azimuth_rad: -45.0 * std::f32::consts::PI / 180.0,
-    elevation_rad: 40.0 * std::f32::consts::PI / 180.0,
+    azimuth_rad: (-45f32).to_radians(),
+    elevation_rad: 40f32.to_radians(),
     color: LinearRgb::WHITE,
 };
 /// Light from everywhere, as the command line has it.

@@ -79,9 +79,9 @@ fn scene(text: &Text<'_>, path: &Path) -> Result<(SceneSpec, Given)> {
 /// As the command line has it.
 const DEFAULT_CAMERA: CameraSpec = CameraSpec::Orbit {
     azimuth_rad: 0.0,
-    elevation_rad: 15.0 * std::f32::consts::PI / 180.0,
+    elevation_rad: 15f32.to_radians(),
     distance: 1.05,
-    fov_y_rad: 30.0 * std::f32::consts::PI / 180.0,
+    fov_y_rad: 30f32.to_radians(),
     target: None,
 };
 
