@@ -165,7 +165,7 @@ impl Args {
 
     /// The scene of a file, its picture as the command line has it where it says something.
     fn scene(&self, path: &Path, given: &Given) -> Result<SceneSpec> {
-        let (mut spec, keys) = scene::read(path)?;
+        let (mut spec, mut keys) = scene::read(path)?;
         given.unused_but(&PICTURE_FLAGS, &format!("{} says what is drawn", path.display()));
         let SceneSpec { picture: own, camera, .. } = self.spec(given);
         let picture = &mut spec.picture;
@@ -182,6 +182,11 @@ impl Args {
         over(given.has("delay"), own.delay, &mut picture.delay);
         over(given.has("camera"), camera, &mut spec.camera);
         spec.picture.reference = own.reference;
+        if given.has("method") {
+            // One file serves several methods: what is for another one is no mistake of the file's.
+            spec.objects.iter_mut().for_each(|o| o.given.excuse(&["map_size", "gutter", "entries", "effort"]));
+            keys.excuse(&["order", "midpoints"]);
+        }
         spec.picture.warn_of_unused(&keys);
         Ok(spec)
     }
@@ -242,9 +247,11 @@ fn check_animation(picture: &PictureSpec) -> Result<()> {
     Ok(())
 }
 
-/// Times are means over the frames, counts of pixels and triangles those of the last frame.
+/// Times are means over the frames but the first, which reads the maps and is told by itself; of one frame it is all.
+/// Counts of pixels and triangles are those of the last frame.
 fn report(stage: &Stage<'_>, picture: &PictureSpec, output: &Path, paintings: &[Painting]) -> Report {
-    let mean = |of: fn(&Painting) -> f64| paintings.iter().map(of).sum::<f64>() / paintings.len() as f64;
+    let timed = if paintings.len() > 1 { &paintings[1..] } else { paintings };
+    let mean = |of: fn(&Painting) -> f64| timed.iter().map(of).sum::<f64>() / timed.len() as f64;
     let reliefs = || stage.props().iter().map(|p| &p.relief);
     let triangles = |of: fn(&rilievo::surface::Mesh) -> usize| reliefs().map(|r| of(&r.mesh)).sum::<usize>();
     let dropped = triangles(rilievo::surface::Mesh::dropped_triangles);
@@ -256,10 +263,13 @@ fn report(stage: &Stage<'_>, picture: &PictureSpec, output: &Path, paintings: &[
         .add("frames", picture.frames)
         .add_f64("seconds_per_frame", mean(|p| p.seconds))
         .add_f64("table_seconds", mean(|p| p.table_seconds));
+    if let [first, _, ..] = paintings {
+        report.add_f64("first_frame_seconds", first.seconds);
+    }
     if let Some(last) = paintings.last() {
         report.add("covered_pixels", last.covered_pixels);
         if let Some(skipped) = last.skipped {
-            remark_skipped(&skipped, dropped);
+            remark_skipped(&skipped);
             report.add(
                 "skipped",
                 json!({
@@ -289,13 +299,12 @@ fn report(stage: &Stage<'_>, picture: &PictureSpec, output: &Path, paintings: &[
     report
 }
 
-/// Tells of triangles that are not in the picture.
-fn remark_skipped(skipped: &Skipped, dropped: usize) {
+/// Tells of triangles that are not in the picture. (Of a closed surface half are turned away: that is no news. Those
+/// without an area were told of when the mesh was read.)
+fn remark_skipped(skipped: &Skipped) {
     let counts = [
         (skipped.outside, "outside the view or behind the camera"),
-        (skipped.back_facing, "turned away"),
         (skipped.too_small, "too small to cover the middle of a pixel"),
-        (dropped as u64, "without an area"),
     ];
     let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{n} {why}")).collect();
     if !told.is_empty() {

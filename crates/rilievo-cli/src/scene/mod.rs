@@ -99,6 +99,11 @@ impl SceneSpec {
         own.chain(self.objects.iter().flat_map(|o| o.relief.files())).collect()
     }
 
+    /// How messages call the whole.
+    pub(crate) fn called(&self) -> String {
+        self.file.as_ref().map_or_else(|| self.name.clone(), |file| file.display().to_string())
+    }
+
     /// Whether any material shows the environment.
     pub(crate) fn mirrors(&self) -> bool {
         self.objects.iter().any(|o| o.materials.mirrors())

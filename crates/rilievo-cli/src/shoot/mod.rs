@@ -7,14 +7,14 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use glam::Vec3;
 use rilievo::light::{Material, Shade};
-use rilievo::raster::{Object, Scene, bake_light_map};
+use rilievo::raster::{Detail, Object, Scene, bake_light_map};
 use rilievo::{MipChain, Pose};
 
 use crate::args::{MethodArg, MethodKind, Turn};
 use crate::batch::named;
 use crate::exit::{remark, usage};
 use crate::relief::Relief;
-use crate::scene::{SceneSpec, Surroundings, takes_vectors};
+use crate::scene::{ObjectSpec, SceneSpec, Surroundings, takes_vectors};
 
 pub(crate) use painter::{Painter, Painting, check_size};
 
@@ -40,7 +40,7 @@ impl<'s> Stage<'s> {
     /// Usage errors where the method cannot draw what is given, errors of files and of the library; they name the object.
     pub(crate) fn load(spec: &'s SceneSpec) -> Result<Self> {
         let kind = MethodKind::from(spec.picture.method);
-        let load = |object: &crate::scene::ObjectSpec| {
+        let load = |object: &ObjectSpec| {
             let relief = object.relief.load(kind, &object.given)?;
             let default = |m| relief.default_materials.material(m);
             let materials = object.materials.resolve(relief.material_count(), default);
@@ -57,7 +57,12 @@ impl<'s> Stage<'s> {
             }
             Ok(Prop { relief, materials })
         };
-        let props = spec.objects.iter().map(|o| load(o).map_err(|e| named(e, Path::new(&o.name))));
+        let told = |object: &ObjectSpec, error: anyhow::Error| match spec.file {
+            // Where in the scene it is, whatever it is.
+            Some(_) => error.context(object.name.clone()),
+            None => named(error, Path::new(&object.name)),
+        };
+        let props = spec.objects.iter().map(|o| load(o).map_err(|e| told(o, e)));
         let props: Vec<Prop> = props.collect::<Result<_>>()?;
         let around = spec.light.surroundings(spec.mirrors())?;
         let spheres = spec.objects.iter().zip(&props).map(|(object, prop)| {
@@ -80,9 +85,9 @@ impl<'s> Stage<'s> {
         let turn_of = |what: Turn| if picture.turn == what { turn } else { 0.0 };
         // About the middle of everything, not about an object's origin.
         let table = Pose::turned_about(self.sphere.0, turn_of(Turn::Object));
-        let object = |(i, (object, prop)): (usize, (&'a crate::scene::ObjectSpec, &'a Prop))| {
+        let object = |(i, (object, prop)): (usize, (&'a ObjectSpec, &'a Prop))| {
             let relief = &prop.relief;
-            let detail = baked.get(i).map_or_else(|| relief.detail(), rilievo::raster::Detail::Baked);
+            let detail = baked.get(i).map_or_else(|| relief.detail(), Detail::Baked);
             Object {
                 pose: after(&table, &object.pose),
                 base_color: relief.base_color(),
@@ -97,7 +102,7 @@ impl<'s> Stage<'s> {
         Ok(Scene {
             objects: self.spec.objects.iter().zip(&self.props).enumerate().map(object).collect(),
             lighting: self.spec.light.lighting(&self.around, self.sphere, turn_of(Turn::Light)),
-            camera: camera.with_context(|| format!("{}: camera", self.spec.name))?,
+            camera: camera.with_context(|| format!("{}: camera", self.spec.called()))?,
         })
     }
 
@@ -115,7 +120,7 @@ impl<'s> Stage<'s> {
             });
         }
         let scene = self.scene(0, &[])?;
-        let bake = |object| Ok(bake_light_map(object, &scene.lighting, scene.camera.eye())?);
+        let bake = |object| bake_light_map(object, &scene.lighting, scene.camera.eye()).map_err(anyhow::Error::from);
         scene.objects.iter().map(bake).collect()
     }
 }

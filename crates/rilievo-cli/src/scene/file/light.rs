@@ -10,11 +10,8 @@ use crate::args::{ColorArg, Given};
 use crate::scene::{Lamp, LightSpec, Side};
 
 /// As the command line has it.
-const DEFAULT_SIDE: Side = Side {
-    azimuth_rad: (-45f32).to_radians(),
-    elevation_rad: 40f32.to_radians(),
-    color: LinearRgb::WHITE,
-};
+const DEFAULT_SIDE: Side =
+    Side { azimuth_rad: (-45f32).to_radians(), elevation_rad: 40f32.to_radians(), color: LinearRgb::WHITE };
 /// Light from everywhere, as the command line has it.
 const DEFAULT_AMBIENT: LinearRgb = LinearRgb::gray(0.1);
 

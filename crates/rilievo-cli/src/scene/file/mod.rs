@@ -50,8 +50,8 @@ pub(crate) fn read(path: &Path) -> Result<(SceneSpec, Given)> {
         return Err(BadInput(format!("{}: {bytes} bytes; a scene file has at most {limit} MiB", named())).into());
     }
     let content = std::fs::read(path).with_context(named)?;
-    let content =
-        String::from_utf8(content).map_err(|e| BadInput(format!("{}: is no text: {}", named(), e.utf8_error())))?;
+    let content = String::from_utf8(content)
+        .map_err(|e| BadInput(format!("{}: is not UTF-8 text: {}", named(), e.utf8_error())))?;
     scene(&Text::new(path, &content), path)
 }
 
