@@ -21,7 +21,10 @@ fn documented() -> BTreeMap<String, BTreeSet<String>> {
     found
 }
 
-fn read_text(text: &str) -> (Result<(SceneSpec, Given)>, BTreeSet<(&'static str, &'static str)>) {
+/// Kinds of tables with keys that were asked for in them.
+type Asked = BTreeSet<(&'static str, &'static str)>;
+
+fn read_text(text: &str) -> (Result<(SceneSpec, Given)>, Asked) {
     let text = Text::new(Path::new("scene.toml"), text);
     let read = scene(&text, Path::new("scene.toml"));
     (read, text.asked())
