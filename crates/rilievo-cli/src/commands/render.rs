@@ -44,6 +44,9 @@ table and static look up an object-space map; exact takes any; linear, normalize
 vectors and take tangent-space maps, height maps (as flat normals: how a texture is stretched on the mesh is not seen), or the
 mesh's own normals.
 
+The report: seconds_per_frame is a frame with its tables, table_seconds the tables alone, map_seconds what the renderer takes once to
+make the maps its own. Triangles that were left out are counted under skipped; --reference does not count them.
+
 --camera and --light turn the same way: azimuth 0 is the front, 90 the right; elevation goes up.";
 
 /// Render a mesh or a built-in shape with its maps, or a scene file.
@@ -222,7 +225,7 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
         paintings.push(painter.paint(&stage.scene(frame, &baked)?)?);
         progress.advance(1);
     }
-    let report = report(&stage, picture, &output, &paintings);
+    let report = report(&stage, picture, &output, &paintings, painter.map_seconds());
     let pictures: Vec<_> = paintings.into_iter().map(|p| p.picture).collect();
     let bytes = progress.step("packing", || match pictures.as_slice() {
         [only] => io::encode_picture_png(only),
@@ -247,11 +250,15 @@ fn check_animation(picture: &PictureSpec) -> Result<()> {
     Ok(())
 }
 
-/// Times are means over the frames but the first, which reads the maps and is told by itself; of one frame it is all.
-/// Counts of pixels and triangles are those of the last frame.
-fn report(stage: &Stage<'_>, picture: &PictureSpec, output: &Path, paintings: &[Painting]) -> Report {
-    let timed = if paintings.len() > 1 { &paintings[1..] } else { paintings };
-    let mean = |of: fn(&Painting) -> f64| timed.iter().map(of).sum::<f64>() / timed.len() as f64;
+/// Times are means over the frames, counts of pixels and triangles those of the last frame.
+fn report(
+    stage: &Stage<'_>,
+    picture: &PictureSpec,
+    output: &Path,
+    paintings: &[Painting],
+    map_seconds: Option<f64>,
+) -> Report {
+    let mean = |of: fn(&Painting) -> f64| paintings.iter().map(of).sum::<f64>() / paintings.len() as f64;
     let reliefs = || stage.props().iter().map(|p| &p.relief);
     let triangles = |of: fn(&rilievo::surface::Mesh) -> usize| reliefs().map(|r| of(&r.mesh)).sum::<usize>();
     let dropped = triangles(rilievo::surface::Mesh::dropped_triangles);
@@ -263,8 +270,8 @@ fn report(stage: &Stage<'_>, picture: &PictureSpec, output: &Path, paintings: &[
         .add("frames", picture.frames)
         .add_f64("seconds_per_frame", mean(|p| p.seconds))
         .add_f64("table_seconds", mean(|p| p.table_seconds));
-    if let [first, _, ..] = paintings {
-        report.add_f64("first_frame_seconds", first.seconds);
+    if let Some(seconds) = map_seconds {
+        report.add_f64("map_seconds", seconds);
     }
     if let Some(last) = paintings.last() {
         report.add("covered_pixels", last.covered_pixels);

@@ -14,6 +14,8 @@ use crate::scene::PictureSpec;
 pub(crate) struct Painter<'a> {
     spec: &'a PictureSpec,
     brush: Brush<'a>,
+    /// How long the fast renderer took to make the maps its own, once it has seen them.
+    map_seconds: Option<f64>,
 }
 
 enum Brush<'a> {
@@ -70,10 +72,18 @@ impl<'a> Painter<'a> {
         } else {
             Brush::Tiles { renderer: Box::default(), samples: empty_picture(width, height)? }
         };
-        Ok(Self { spec, brush })
+        Ok(Self { spec, brush, map_seconds: None })
+    }
+
+    /// How long the maps took to be brought into the form the fast renderer reads, which it does once for all frames.
+    pub(crate) fn map_seconds(&self) -> Option<f64> {
+        self.map_seconds
     }
 
     /// Draws a frame.
+    ///
+    /// # Errors
+    /// Those of the renderers: an object that lacks what the method needs.
     pub(crate) fn paint(&mut self, scene: &Scene<'a>) -> Result<Painting> {
         let spec = self.spec;
         let (method, filter) = (spec.method(), spec.filter());
@@ -96,6 +106,12 @@ impl<'a> Painter<'a> {
                 drop(frame);
                 let background = spec.background.filter(|_| spec.samples == 1);
                 let options = tile::Options { method, filter, background };
+                if self.map_seconds.is_none() {
+                    // On a picture of one pixel there is nothing else to do.
+                    let started = Instant::now();
+                    renderer.draw(scene, &options, &mut empty_picture(1, 1)?)?;
+                    self.map_seconds = Some(started.elapsed().as_secs_f64());
+                }
                 let started = Instant::now();
                 let drawn = renderer.draw(scene, &options, samples)?;
                 let seconds = started.elapsed().as_secs_f64();

@@ -138,7 +138,7 @@ fn frames_of_an_animation_are_what_single_pictures_show() {
     room.bump("hill.png");
     let shot = "render sphere --height hill.png --depth 0.1 --map-size 128x64 -n 200 --size 40";
     let said = room.run(&format!("{shot} --frames 4 --turn camera -o f.png --json")).ok().json();
-    assert!(said["first_frame_seconds"].is_number() && said["frames"] == 4);
+    assert!(said["map_seconds"].is_number() && said["frames"] == 4);
     let frames = frames_of(&room.read("f.png"));
     for (i, azimuth) in [0, 90, 180, 270].into_iter().enumerate() {
         room.run(&format!("{shot} --camera {azimuth},15,1.05 -o one.png")).ok();

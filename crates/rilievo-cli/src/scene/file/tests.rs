@@ -149,3 +149,22 @@ fn errors_name_file_line_and_key() {
         );
     }
 }
+
+#[test]
+fn damaged_files_end_in_a_message() {
+    let page = include_str!("../../../../../docs/scenes.md");
+    let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let end = |text: &str| {
+        if let Err(error) = read_text(text).0 {
+            assert!(format!("{error:#}").starts_with("scene.toml:"), "{text}: {error:#}");
+        }
+    };
+    (0..=example.len()).filter_map(|end| example.get(..end)).for_each(end);
+    for at in 0..example.len() {
+        for mark in ["\0", "9", "-", "[", "}", "\"", "=", "é", "\n"] {
+            if let (Some(before), Some(after)) = (example.get(..at), example.get(at + 1..)) {
+                end(&format!("{before}{mark}{after}"));
+            }
+        }
+    }
+}
