@@ -50,6 +50,18 @@ impl std::fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
+/// A file that is not what it should be; the message names the file and the place in it.
+#[derive(Debug)]
+pub(crate) struct BadInput(pub(crate) String);
+
+impl std::fmt::Display for BadInput {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BadInput {}
+
 /// An error that ends with exit code 2.
 pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
     anyhow::Error::new(Usage(message.into()))
@@ -104,6 +116,9 @@ fn code(error: &anyhow::Error) -> Option<u8> {
         }
         if cause.is::<Usage>() {
             return Some(USAGE);
+        }
+        if cause.is::<BadInput>() {
+            return Some(BAD_INPUT);
         }
         match cause.downcast_ref::<rilievo_io::Error>() {
             // The cause of an Io error follows in the chain and decides.

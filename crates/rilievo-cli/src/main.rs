@@ -10,6 +10,8 @@ mod inputs;
 mod progress;
 mod relief;
 mod report;
+mod scene;
+mod shoot;
 mod surface;
 
 use std::process::ExitCode;
@@ -56,10 +58,11 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let matches = Cli::command().get_matches();
+    let program = Cli::command();
+    let matches = program.clone().get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     exit::quiet(cli.quiet);
-    match run(cli, &Given::of(&matches)) {
+    match run(cli, &Given::of(&program, &matches)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Negative) => ExitCode::from(exit::NEGATIVE),
         Ok(Outcome::Failed(code)) => ExitCode::from(code),

@@ -55,6 +55,9 @@ impl FromStr for SurfaceArg {
 }
 
 impl SurfaceArg {
+    /// What a scene's object is if nothing is said.
+    pub(crate) const DEFAULT: Self = Self::Sphere { segments: 64, rings: 32 };
+
     /// The mesh; a plane has the shape of its map.
     pub(crate) fn load(&self, (map_width, map_height): (u32, u32)) -> Result<Mesh> {
         Ok(match self {

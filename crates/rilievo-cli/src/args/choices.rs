@@ -4,6 +4,7 @@ use clap::ValueEnum;
 use rilievo::height::Filter;
 use rilievo::light::Blend;
 use rilievo::quantize::{Dither, Effort};
+use rilievo::raster::vectors::{Midpoints, Order};
 use rilievo::raster::{Method, TextureFilter};
 use rilievo::{Convention, Edges};
 use rilievo_io::{EmbeddedMaterials, SpaceKind};
@@ -99,11 +100,41 @@ choice!(
 );
 choice!(
     /// How normals become colours.
-    MethodArg => Method {
+    MethodArg => MethodKind {
         /// Look-up in a lit table of normals.
-        Table => Method::Table,
-        /// Per-pixel frames and full normalisation: the reference.
-        Exact => Method::Exact,
+        Table => MethodKind::Table,
+        /// Per-pixel frames and full normalisation: the reference for the others.
+        Exact => MethodKind::Exact,
+        /// A light map, baked once under the light of the first frame.
+        Static => MethodKind::Static,
+        /// Light and half vectors of the vertices, interpolated and left as short as they become.
+        Linear => MethodKind::Vectors,
+        /// The same, normalised in every pixel.
+        Normalized => MethodKind::Vectors,
+        /// The vectors interpolated quadratically (see --order and --midpoints).
+        Quadratic => MethodKind::Vectors,
+    }
+);
+choice!(
+    /// The degree of the quadratic method's polynomials.
+    OrderArg => Order {
+        /// Linear on triangles over which the vectors hardly turn.
+        Auto => Order::Auto,
+        /// Linear on all triangles.
+        Linear => Order::Linear,
+        /// Quadratic on all triangles.
+        Quadratic => Order::Quadratic,
+    }
+);
+choice!(
+    /// Where the quadratic method's vectors in the middle of an edge come from.
+    MidpointsArg => Midpoints {
+        /// A frame of their own, its tangent made orthogonal to the normal.
+        GramSchmidt => Midpoints::GramSchmidt,
+        /// A frame of their own, from the means of normals and tangents.
+        Frames => Midpoints::NewFrames,
+        /// The normalised means of the vectors at the ends.
+        Averaged => Midpoints::AveragedVectors,
     }
 );
 choice!(
@@ -129,6 +160,38 @@ choice!(
     }
 );
 
+/// A method by what it needs of an object's normals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MethodKind {
+    /// A quantised object-space map.
+    Table,
+    /// Whatever there is.
+    Exact,
+    /// An object-space map, quantised or not, which is lit once.
+    Static,
+    /// A tangent-space map, or the mesh's own normals.
+    Vectors,
+}
+
+impl MethodArg {
+    /// The method, with the choices that are the quadratic method's.
+    pub(crate) fn with(self, order: OrderArg, midpoints: MidpointsArg) -> Method {
+        match self {
+            Self::Table => Method::Table,
+            Self::Exact => Method::Exact,
+            Self::Static => Method::Static,
+            Self::Linear => Method::Linear,
+            Self::Normalized => Method::Normalized,
+            Self::Quadratic => Method::Quadratic { midpoints: midpoints.into(), order: order.into() },
+        }
+    }
+
+    /// Its name on the command line and in reports.
+    pub(crate) fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+    }
+}
+
 impl ConventionArg {
     /// How generated names say it.
     pub(crate) fn suffix(self) -> &'static str {
@@ -146,4 +209,15 @@ pub(crate) enum Bits {
     Eight,
     #[value(name = "16")]
     Sixteen,
+}
+
+/// What goes round in an animation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Turn {
+    /// All objects, about the vertical axis through their middle.
+    Object,
+    /// All lights and the environment.
+    Light,
+    /// The camera, about what it looks at.
+    Camera,
 }

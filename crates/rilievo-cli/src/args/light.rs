@@ -2,18 +2,14 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::sync::Arc;
 
-use anyhow::Result;
 use clap::Args;
-use glam::{Quat, Vec3};
-use rilievo::light::{Environment, Light, Lighting, Material};
-use rilievo::{LinearRgb, World};
+use rilievo::LinearRgb;
 
 use super::model::{Finish, ModelArg};
 use super::values::finite;
 use super::{BlendArg, ColorArg, Given};
-use crate::{exit, inputs};
+use crate::scene::{Lamp, LightSpec, MaterialSpec, Side};
 
 /// Light that falls on the surface, and how the surface answers.
 #[derive(Debug, Clone, Args)]
@@ -23,10 +19,10 @@ pub(crate) struct LightArgs {
     /// Azimuth 0 shines from the front, 90 from the right, -90 from the left; elevation goes up. The colour is sRGB,
     /// and may be brightened or dimmed: `--light -45,30,ffeecc*1.2`.
     #[arg(long = "light", value_name = "AZ,EL[,COLOR]", allow_hyphen_values = true, default_values = ["-45,40"])]
-    pub(crate) lights: Vec<LightArg>,
+    lights: Vec<Side>,
     /// Light from everywhere.
     #[arg(long, value_name = "COLOR", default_value = "ffffff*0.1")]
-    pub(crate) ambient: ColorArg,
+    ambient: ColorArg,
     #[arg(long = "model", value_name = "MODEL", help = "How the surface answers light; repeat it for a sum [default: blinn-phong]", long_help = super::model::help())]
     models: Vec<ModelArg>,
     /// What mirrors show: a panorama twice as wide as high, or a square matcap (HDR, EXR, PNG, JPEG).
@@ -43,34 +39,24 @@ pub(crate) struct LightArgs {
 }
 
 impl LightArgs {
-    /// Reads the environment, and tells of flags that play no part.
-    pub(crate) fn surroundings(&self, given: &Given) -> Result<Surroundings> {
-        if self.environment.is_none() {
-            given.unused(&["turn_environment"], "there is no --environment to turn");
-        } else if !self.models.iter().any(|m| m.mirrors()) {
-            let why = "no --model mirrors it; add --model environment, or metallic-roughness";
-            given.unused(&["environment", "turn_environment"], why);
-            return Ok(Surroundings::default());
+    /// All light, with the near lights among it.
+    pub(crate) fn spec(&self, points: Option<&PointLightArgs>, given: &Given) -> LightSpec {
+        let near = points.into_iter().flat_map(|p| &p.point_lights);
+        let lamps = self.lights.iter().map(|&side| Lamp::Side(side));
+        LightSpec {
+            ambient: self.ambient.0,
+            lamps: lamps.chain(near.map(|&PointLightArg { side, distance }| Lamp::About { side, distance })).collect(),
+            environment: self.environment.clone(),
+            environment_turn_rad: self.turn_environment.to_radians(),
+            given: given.clone(),
         }
-        let read = self.environment.as_deref().map(inputs::environment).transpose()?;
-        Ok(Surroundings(read.map(Arc::new)))
     }
 
-    /// The light, with every lamp and the surroundings carried `turn_rad` further round the vertical axis.
-    pub(crate) fn lighting(&self, surroundings: &Surroundings, turn_rad: f32) -> Lighting<World> {
-        let lights = self.lights.iter().map(|l| l.resolve(turn_rad)).collect();
-        Lighting {
-            environment: surroundings.0.clone(),
-            // Where the sky is turned to the right, a direction is looked up further to the left.
-            to_sky: Quat::from_rotation_y(-self.turn_environment.to_radians() - turn_rad),
-            ..Lighting::new(self.ambient.0, lights)
-        }
+    /// How materials answer, unless they say it themselves.
+    fn models(&self) -> Vec<ModelArg> {
+        if self.models.is_empty() { vec![ModelArg::DEFAULT] } else { self.models.clone() }
     }
 }
-
-/// What mirrors show, read once for all frames.
-#[derive(Debug, Default)]
-pub(crate) struct Surroundings(Option<Arc<Environment>>);
 
 fn degrees(text: &str) -> Result<f32, String> {
     finite(text).ok_or_else(|| format!("'{text}' is not a number of degrees"))
@@ -88,23 +74,10 @@ pub(crate) struct PointLightArgs {
     point_lights: Vec<PointLightArg>,
 }
 
-impl PointLightArgs {
-    /// The lights about a bounding sphere, carried `turn_rad` further round.
-    pub(crate) fn resolve(&self, (middle, radius): (Vec3, f32), turn_rad: f32) -> impl Iterator<Item = Light<World>> {
-        self.point_lights.iter().map(move |l| {
-            let LightArg { azimuth_rad, elevation_rad, color } = l.side;
-            let toward = Light::from_angles(azimuth_rad + turn_rad, elevation_rad, color).toward(middle);
-            let distance = l.distance * radius;
-            let position = middle + toward.unwrap_or(Vec3::Z) * distance;
-            Light::Point { position, color, reference_distance: Some(distance) }
-        })
-    }
-}
-
 /// `AZ,EL,DISTANCE[,COLOR]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct PointLightArg {
-    side: LightArg,
+    side: Side,
     distance: f32,
 }
 
@@ -122,20 +95,7 @@ impl FromStr for PointLightArg {
 }
 
 /// `AZ,EL[,COLOR]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LightArg {
-    azimuth_rad: f32,
-    elevation_rad: f32,
-    color: LinearRgb,
-}
-
-impl LightArg {
-    fn resolve(&self, turn_rad: f32) -> Light<World> {
-        Light::from_angles(self.azimuth_rad + turn_rad, self.elevation_rad, self.color)
-    }
-}
-
-impl FromStr for LightArg {
+impl FromStr for Side {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -160,23 +120,11 @@ pub(crate) struct MaterialArgs {
 }
 
 impl MaterialArgs {
-    /// Materials `0 … count − 1` under the models of `light`: those that were given, and the default for the rest.
-    pub(crate) fn resolve(
-        &self,
-        count: usize,
-        light: &LightArgs,
-        default: impl Fn(usize) -> Material,
-    ) -> Vec<Material> {
-        for absent in self.material.iter().filter(|m| usize::from(m.number) >= count.max(1)) {
-            exit::warn("--material", &format!("there is no material {}: the maps name {count}", absent.number));
-        }
-        let given = |n: usize| self.material.iter().rev().find(|m| usize::from(m.number) == n);
-        let material = |n: usize| {
-            let finish = given(n).map_or_else(|| Finish::of(&default(n)), |m| m.finish);
-            let models = if light.models.is_empty() { &[ModelArg::DEFAULT] } else { light.models.as_slice() };
-            finish.with(models)
-        };
-        (0..count.max(1)).map(material).collect()
+    /// The materials under the models of `light`.
+    pub(crate) fn spec(&self, light: &LightArgs) -> MaterialSpec {
+        let models = light.models();
+        let given = self.material.iter().map(|m| (m.number, m.finish.with(&models))).collect();
+        MaterialSpec { given, models, called: "--material".to_owned() }
     }
 }
 
@@ -211,27 +159,24 @@ impl FromStr for MaterialArg {
 mod tests {
     use super::*;
     use glam::Vec3;
+    use rilievo::light::Material;
 
     #[test]
     fn lights_come_from_where_they_say() {
-        let toward = |text: &str| text.parse::<LightArg>().unwrap().resolve(0.0).toward(Vec3::ZERO).unwrap();
+        let toward = |text: &str| text.parse::<Side>().unwrap().resolve(0.0).toward(Vec3::ZERO).unwrap();
         assert!((toward("90,0") - Vec3::X).length() < 1e-6);
         assert!((toward("0,0") - Vec3::Z).length() < 1e-6);
         assert!((toward("-90,0,ff0000") + Vec3::X).length() < 1e-6);
         assert!((toward("13,90") - Vec3::Y).length() < 1e-6);
         for bad in ["", "1", "1,x", "1,2,red"] {
-            assert!(bad.parse::<LightArg>().is_err(), "{bad}");
+            assert!(bad.parse::<Side>().is_err(), "{bad}");
         }
     }
 
     #[test]
-    fn point_lights_stand_about_the_object() {
-        let args = |text: &str| PointLightArgs { point_lights: vec![text.parse().unwrap()] };
-        let sphere = (Vec3::new(1.0, 2.0, 3.0), 2.0);
-        let light = args("-90,0,1.5,ff0000").resolve(sphere, 0.0).next().unwrap();
-        let Light::Point { position, reference_distance, .. } = light else { panic!("{light:?}") };
-        assert!((position - Vec3::new(-2.0, 2.0, 3.0)).length() < 1e-5 && reference_distance == Some(3.0));
-        assert_eq!(light.color_at(sphere.0), LinearRgb::new(1.0, 0.0, 0.0));
+    fn point_lights_have_a_distance() {
+        let light = "-90,0,1.5,ff0000".parse::<PointLightArg>().unwrap();
+        assert_eq!((light.distance, light.side.color), (1.5, LinearRgb::new(1.0, 0.0, 0.0)));
         for bad in ["", "1,2", "1,2,0", "1,2,3,red", "1,2,x"] {
             assert!(bad.parse::<PointLightArg>().is_err(), "{bad}");
         }
@@ -252,18 +197,11 @@ mod tests {
     #[test]
     fn the_last_material_of_a_number_counts() {
         let line = line("--material 1,000000 --material 1,ffffff,ffffff*0.5,7");
-        let all = line.material.resolve(3, &line.light, |_| Material::default());
+        let all = line.material.spec(&line.light).resolve(3, |_| Material::default());
         assert_eq!((&all[0], &all[2]), (&Material::default(), &Material::default()));
         assert_eq!(all[1], Material::blinn_phong(LinearRgb::WHITE, LinearRgb::gray(0.5), 7.0));
         for bad in ["", "1", "256,ffffff", "0,ffffff,ffffff,-1", "0,ffffff,ffffff,1,2"] {
             assert!(bad.parse::<MaterialArg>().is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn the_environment_turns_to_the_right() {
-        let turned = line("--turn-environment 30").light.lighting(&Surroundings::default(), 60f32.to_radians());
-        // What was in front of the object (+Z) is now on its right (+X).
-        assert!((turned.to_sky * Vec3::X - Vec3::Z).length() < 1e-6);
     }
 }

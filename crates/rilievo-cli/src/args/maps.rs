@@ -12,18 +12,23 @@ use crate::surface::SurfaceArg;
 /// Widest object-space map that is made unless the user asks for more.
 const DEFAULT_MAX_WIDTH: f32 = 4096.0;
 
+/// Height of full white unless told otherwise, as a fraction of the map's width.
+pub(crate) const DEFAULT_DEPTH: f32 = 0.05;
+/// Texels that charts are grown by unless told otherwise.
+pub(crate) const DEFAULT_GUTTER: u32 = 8;
+
 /// The scale and slopes of height maps.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct HeightArgs {
     /// Height of full white, as a fraction of the map's width; negative if white is deep. The vase has its own.
-    #[arg(long, value_name = "D", default_value_t = 0.05, allow_hyphen_values = true)]
+    #[arg(long, value_name = "D", default_value_t = DEFAULT_DEPTH, allow_hyphen_values = true)]
     pub(crate) depth: f32,
     /// How slopes are estimated.
     #[arg(long, value_enum, default_value_t = FilterArg::Plane4)]
-    filter: FilterArg,
+    pub(crate) filter: FilterArg,
     /// What lies beyond the border of the map.
     #[arg(long, value_enum, default_value_t = EdgesArg::Wrap)]
-    edges: EdgesArg,
+    pub(crate) edges: EdgesArg,
 }
 
 impl HeightArgs {
@@ -41,13 +46,13 @@ impl HeightArgs {
 pub(crate) struct OntoArgs {
     /// How often the map repeats over the mesh's texture square [default: 1,1; cube: 3,2, a whole map on each face].
     #[arg(long, value_name = "U,V", value_parser = pair)]
-    repeat: Option<[f32; 2]>,
+    pub(crate) repeat: Option<[f32; 2]>,
     /// Size of the object-space map [default: the source's size times --repeat, at most 4096 wide].
     #[arg(long, value_name = "WxH")]
-    map_size: Option<SizeArg>,
+    pub(crate) map_size: Option<SizeArg>,
     /// Texels that charts are grown by, so that filtering does not bleed.
-    #[arg(long, value_name = "TEXELS", default_value_t = 8)]
-    gutter: u32,
+    #[arg(long, value_name = "TEXELS", default_value_t = DEFAULT_GUTTER)]
+    pub(crate) gutter: u32,
 }
 
 impl OntoArgs {

@@ -8,10 +8,11 @@ mod model;
 mod values;
 
 pub(crate) use choices::{
-    Bits, BlendArg, ConventionArg, DitherArg, EdgesArg, EffortArg, FilterArg, MaterialsInArg, MethodArg, SamplingArg,
-    SpaceArg,
+    Bits, BlendArg, ConventionArg, DitherArg, EdgesArg, EffortArg, FilterArg, MaterialsInArg, MethodArg, MethodKind,
+    MidpointsArg, OrderArg, SamplingArg, SpaceArg, Turn,
 };
 pub(crate) use given::Given;
-pub(crate) use light::{LightArgs, MaterialArgs, PointLightArgs, Surroundings};
-pub(crate) use maps::{HeightArgs, OntoArgs};
+pub(crate) use light::{LightArgs, MaterialArgs, PointLightArgs};
+pub(crate) use maps::{DEFAULT_DEPTH, DEFAULT_GUTTER, HeightArgs, OntoArgs};
+pub(crate) use model::{Finish, ModelArg};
 pub(crate) use values::{CameraArg, ColorArg, SizeArg, number, pair};

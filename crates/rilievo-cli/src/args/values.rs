@@ -2,8 +2,9 @@
 
 use std::str::FromStr;
 
-use rilievo::surface::{Camera, Mesh};
-use rilievo::{LinearRgb, Result};
+use rilievo::LinearRgb;
+
+use crate::scene::CameraSpec;
 
 /// `WxH`, or one number for a square.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,25 +48,7 @@ impl FromStr for ColorArg {
 
 /// `AZ,EL[,DISTANCE[,FOV]]`: an orbit about the object.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct CameraArg {
-    azimuth_rad: f32,
-    elevation_rad: f32,
-    distance: f32,
-    fov_y_rad: f32,
-}
-
-impl CameraArg {
-    /// The camera for a mesh and a picture of this aspect.
-    pub(crate) fn resolve(&self, mesh: &Mesh, aspect: f32) -> Result<Camera> {
-        let sphere = mesh.bounding_sphere();
-        Camera::orbit(sphere, self.azimuth_rad, self.elevation_rad, self.distance, self.fov_y_rad, aspect)
-    }
-
-    /// The same orbit, further round.
-    pub(crate) fn turned(self, angle_rad: f32) -> Self {
-        Self { azimuth_rad: self.azimuth_rad + angle_rad, ..self }
-    }
-}
+pub(crate) struct CameraArg(pub(crate) CameraSpec);
 
 impl FromStr for CameraArg {
     type Err = String;
@@ -82,12 +65,12 @@ impl FromStr for CameraArg {
             return Err(format!("'{text}': the distance must be 0.01 to 10000, the field of view 0.1 to 170 degrees"));
         }
         let (azimuth_rad, elevation_rad) = (azimuth.to_radians(), elevation.to_radians());
-        Ok(Self { azimuth_rad, elevation_rad, distance, fov_y_rad: fov.to_radians() })
+        Ok(Self(CameraSpec::Orbit { azimuth_rad, elevation_rad, distance, fov_y_rad: fov.to_radians(), target: None }))
     }
 }
 
 /// A finite number.
-pub(super) fn finite(text: &str) -> Option<f32> {
+pub(crate) fn finite(text: &str) -> Option<f32> {
     text.trim().parse::<f32>().ok().filter(|v| v.is_finite())
 }
 

@@ -6,12 +6,13 @@ use anyhow::Result;
 use glam::Vec3;
 use rilievo::color::Picture;
 use rilievo::light::{Lighting, Material, ShadeTable, relight};
-use rilievo::{Normal, NormalTable, QuantizedMap, Rgba8, Space};
+use rilievo::{Normal, NormalTable, QuantizedMap, Rgba8, Space, World};
 use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
 
-use crate::args::{ConventionArg, Given, LightArgs, MaterialArgs, SpaceArg, Surroundings};
+use crate::args::{ConventionArg, Given, LightArgs, MaterialArgs, SpaceArg};
 use crate::exit::{self, Outcome, remark, usage};
 use crate::progress::Bars;
+use crate::scene::{LightSpec, MaterialSpec, Surroundings};
 use crate::{batch, inputs};
 
 const AFTER_HELP: &str = "\
@@ -67,20 +68,46 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     }
     let name = |input: &Path| format!("{}_relit.png", batch::stem(input));
     let read: Vec<&Path> = args.color.iter().chain(&args.light.environment).map(PathBuf::as_path).collect();
-    let surroundings = args.light.surroundings(given)?;
+    let light = Light::new(args, given)?;
     batch::run(&args.inputs, args.output.as_deref(), &["png"], &read, name, |input, output| {
-        convert(args, &surroundings, input, output)
+        convert(args, &light, input, output)
     })
 }
 
-fn convert(args: &Args, surroundings: &Surroundings, input: &Path, output: &Path) -> Result<Outcome> {
+/// All light, and how surfaces answer it.
+struct Light {
+    spec: LightSpec,
+    around: Surroundings,
+    materials: MaterialSpec,
+}
+
+impl Light {
+    fn new(args: &Args, given: &Given) -> Result<Self> {
+        let (spec, materials) = (args.light.spec(None, given), args.material.spec(&args.light));
+        Ok(Self { around: spec.surroundings(materials.mirrors())?, spec, materials })
+    }
+
+    fn turned(&self, turn_rad: f32) -> Lighting<World> {
+        self.spec.lighting(&self.around, (Vec3::ZERO, 1.0), turn_rad)
+    }
+
+    /// Lights a table as seen straight from the front.
+    fn table<S: Space>(&self, table: &NormalTable<S>, turn_rad: f32) -> Result<ShadeTable> {
+        let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
+        let materials = self.materials.resolve(count, |_| Material::default());
+        let shades = ShadeTable::new(table, &materials, &self.turned(turn_rad).facing(), Normal::Z, Vec3::ZERO);
+        shades.map_err(|e| usage(e.to_string()))
+    }
+}
+
+fn convert(args: &Args, light: &Light, input: &Path, output: &Path) -> Result<Outcome> {
     let source = inputs::open(input)?;
     let bytes = if args.frames == 1 && args.color.is_none() && io::is_palette_png(&source) {
-        relit_palette(args, surroundings, &source)?
+        relit_palette(args, light, &source)?
     } else {
         match inputs::indexed(&source, &args.import())?.map {
-            AnyIndexed::Tangent(map) => relit_map(args, surroundings, &map, input)?,
-            AnyIndexed::Object(map) => relit_map(args, surroundings, &map, input)?,
+            AnyIndexed::Tangent(map) => relit_map(args, light, &map, input)?,
+            AnyIndexed::Object(map) => relit_map(args, light, &map, input)?,
         }
     };
     io::write_atomic(output, &bytes)?;
@@ -89,34 +116,28 @@ fn convert(args: &Args, surroundings: &Surroundings, input: &Path, output: &Path
 }
 
 /// Rewrites the palette and its checksum; every other byte stays.
-fn relit_palette(args: &Args, surroundings: &Surroundings, source: &Source) -> Result<Vec<u8>> {
+fn relit_palette(args: &Args, light: &Light, source: &Source) -> Result<Vec<u8>> {
     let png = PalettePng::parse(source)?;
     let palette = png.table(&args.import())?;
     for warning in &palette.warnings {
         exit::warn(source.name(), warning);
     }
-    let lighting = args.light.lighting(surroundings, 0.0);
     let shades = match &palette.table {
-        AnyTable::Tangent(table) => light_table(args, table, &lighting)?,
-        AnyTable::Object(table) => light_table(args, table, &lighting)?,
+        AnyTable::Tangent(table) => light.table(table, 0.0)?,
+        AnyTable::Object(table) => light.table(table, 0.0)?,
     };
     let colors: Vec<[u8; 3]> = shades.to_srgb(args.light.blend.into()).into_iter().map(Rgba8::rgb).collect();
     Ok(png.relit(&colors)?)
 }
 
-fn relit_map<S: Space>(
-    args: &Args,
-    surroundings: &Surroundings,
-    map: &QuantizedMap<S>,
-    input: &Path,
-) -> Result<Vec<u8>> {
+fn relit_map<S: Space>(args: &Args, light: &Light, map: &QuantizedMap<S>, input: &Path) -> Result<Vec<u8>> {
     let base: Option<Picture> = args.color.as_deref().map(inputs::picture).transpose()?;
     let progress = Bars::new(input.display().to_string());
     rilievo::Progress::begin(&progress, "relighting", args.frames.into());
     let mut frames = Vec::new();
     for frame in 0..args.frames {
         let turn = frame as f32 / args.frames as f32 * std::f32::consts::TAU;
-        let shades = light_table(args, map.table(), &args.light.lighting(surroundings, turn))?;
+        let shades = light.table(map.table(), turn)?;
         frames.push(relight(map, &shades, base.as_ref(), args.light.blend.into())?);
         rilievo::Progress::advance(&progress, 1);
     }
@@ -124,16 +145,4 @@ fn relit_map<S: Space>(
         [only] => io::encode_picture_png(only),
         _ => io::encode_apng(&frames, args.delay),
     })?)
-}
-
-/// Lights a table as seen straight from the front.
-fn light_table<S: Space>(
-    args: &Args,
-    table: &NormalTable<S>,
-    lighting: &Lighting<rilievo::World>,
-) -> Result<ShadeTable> {
-    let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
-    let materials = args.material.resolve(count, &args.light, |_| Material::default());
-    let shades = ShadeTable::new(table, &materials, &lighting.facing(), Normal::Z, Vec3::ZERO);
-    shades.map_err(|e| usage(e.to_string()))
 }

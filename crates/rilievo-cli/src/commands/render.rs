@@ -1,23 +1,25 @@
 //! `rilievo render`: pictures of surfaces.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use anyhow::Result;
-use clap::ValueEnum;
-use rilievo::color::Picture;
-use rilievo::raster::{self, Frame, Method, Object, Scene, Target};
+use rilievo::raster::tile::Skipped;
 use rilievo::{Pose, Progress};
 use rilievo_io as io;
+use serde_json::json;
 
 use crate::args::{
-    CameraArg, ColorArg, Given, LightArgs, MaterialArgs, MethodArg, PointLightArgs, SamplingArg, SizeArg, Surroundings,
+    CameraArg, ColorArg, Given, LightArgs, MaterialArgs, MethodArg, MidpointsArg, OrderArg, PointLightArgs,
+    SamplingArg, SizeArg, Turn,
 };
-use crate::batch::{check_output, named};
+use crate::batch::check_output;
 use crate::exit::{Outcome, remark, usage};
 use crate::progress::Bars;
-use crate::relief::{Relief, ReliefArgs};
+use crate::relief::ReliefArgs;
 use crate::report::Report;
+use crate::scene::{self, ObjectSpec, PictureSpec, SceneSpec};
+use crate::shoot::{Painter, Painting, Stage, check_size};
+use crate::surface::SurfaceArg;
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -32,10 +34,22 @@ Examples:
   rilievo render rock.obj --normals rock_n.png --model environment:0.2 --environment city.hdr
   rilievo render vase --model metallic-roughness:1,0.35 --environment city.hdr --material 1,d0a040
   rilievo render vase --method exact --point-light -60,20,1.3,ffc080*2
+  rilievo render torus:16x9 --normals waves_gl.png --repeat 6,2 --method quadratic
+  rilievo render scene.toml --size 1920x1080 --supersample 2        several objects; see docs/scenes.md
+
+A scene file says what is drawn; of the flags, those of the picture are taken over it: -o, --method, --order, --midpoints,
+--sampling, --size, --camera, --background, --supersample, --frames, --turn, --delay.
+
+table and static look up an object-space map; exact takes any; linear, normalized and quadratic interpolate light and half
+vectors and take tangent-space maps, height maps (as flat normals: how a texture is stretched on the mesh is not seen), or the
+mesh's own normals.
+
+The report: seconds_per_frame is a frame with its tables, table_seconds the tables alone, map_seconds what the renderer takes once to
+make the maps its own. Triangles that were left out are counted under skipped; --reference does not count them.
 
 --camera and --light turn the same way: azimuth 0 is the front, 90 the right; elevation goes up.";
 
-/// Render a mesh or a built-in shape with its maps.
+/// Render a mesh or a built-in shape with its maps, or a scene file.
 #[derive(Debug, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct Args {
@@ -47,6 +61,12 @@ pub(crate) struct Args {
     /// How normals become colours.
     #[arg(long, value_enum, default_value_t = MethodArg::Table)]
     method: MethodArg,
+    /// The degree of the quadratic method's polynomials.
+    #[arg(long, value_enum, default_value_t = OrderArg::Auto)]
+    order: OrderArg,
+    /// Where the quadratic method's vectors in the middle of an edge come from.
+    #[arg(long, value_enum, default_value_t = MidpointsArg::GramSchmidt)]
+    midpoints: MidpointsArg,
     /// How a pixel gathers texels.
     #[arg(long, value_enum, default_value_t = SamplingArg::Trilinear)]
     sampling: SamplingArg,
@@ -80,136 +100,232 @@ pub(crate) struct Args {
     /// Milliseconds a frame is shown.
     #[arg(long, value_name = "MS", default_value_t = 50)]
     delay: u16,
+    /// Draw with the scalar reference renderer, slow and exact.
+    #[arg(long)]
+    reference: bool,
     /// Print the report as JSON.
     #[arg(long)]
     json: bool,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Turn {
-    Object,
-    Light,
-    Camera,
-}
+/// Flags that a scene file leaves to the command line, by their names in [`Given`].
+const PICTURE_FLAGS: [&str; 15] = [
+    "surface",
+    "output",
+    "method",
+    "order",
+    "midpoints",
+    "sampling",
+    "size",
+    "camera",
+    "background",
+    "supersample",
+    "frames",
+    "turn",
+    "delay",
+    "reference",
+    "json",
+];
 
 /// The most bytes all frames of an animation may take, since they are kept until the file is written.
 const MAX_ANIMATION_BYTES: u64 = 4 << 30;
 
+impl Args {
+    /// What the command line asks for.
+    fn spec(&self, given: &Given) -> SceneSpec {
+        let name = self.relief.surface.stem();
+        let object = ObjectSpec {
+            name: name.clone(),
+            relief: self.relief.clone(),
+            given: given.clone(),
+            pose: Pose::IDENTITY,
+            materials: self.material.spec(&self.light),
+            blend: self.light.blend.into(),
+            double_sided: self.double_sided,
+        };
+        SceneSpec {
+            name,
+            file: None,
+            objects: vec![object],
+            light: self.light.spec(Some(&self.points), given),
+            camera: self.camera.0,
+            picture: PictureSpec {
+                output: self.output.clone(),
+                method: self.method,
+                order: self.order,
+                midpoints: self.midpoints,
+                sampling: self.sampling,
+                size: self.size,
+                background: self.background.map(|c| c.0),
+                samples: self.supersample,
+                frames: self.frames,
+                turn: self.turn,
+                delay: self.delay,
+                reference: self.reference,
+            },
+        }
+    }
+
+    /// The scene of a file, its picture as the command line has it where it says something.
+    fn scene(&self, path: &Path, given: &Given) -> Result<SceneSpec> {
+        let (mut spec, mut keys) = scene::read(path)?;
+        given.unused_but(&PICTURE_FLAGS, &format!("{} says what is drawn", path.display()));
+        let SceneSpec { picture: own, camera, .. } = self.spec(given);
+        let picture = &mut spec.picture;
+        over(given.has("output"), own.output, &mut picture.output);
+        over(given.has("method"), own.method, &mut picture.method);
+        over(given.has("order"), own.order, &mut picture.order);
+        over(given.has("midpoints"), own.midpoints, &mut picture.midpoints);
+        over(given.has("sampling"), own.sampling, &mut picture.sampling);
+        over(given.has("size"), own.size, &mut picture.size);
+        over(given.has("background"), own.background, &mut picture.background);
+        over(given.has("supersample"), own.samples, &mut picture.samples);
+        over(given.has("frames"), own.frames, &mut picture.frames);
+        over(given.has("turn"), own.turn, &mut picture.turn);
+        over(given.has("delay"), own.delay, &mut picture.delay);
+        over(given.has("camera"), camera, &mut spec.camera);
+        spec.picture.reference = own.reference;
+        if given.has("method") {
+            // One file serves several methods: what is for another one is no mistake of the file's.
+            spec.objects.iter_mut().for_each(|o| o.given.excuse(&["map_size", "gutter", "entries", "effort"]));
+            keys.excuse(&["order", "midpoints"]);
+        }
+        spec.picture.warn_of_unused(&keys);
+        Ok(spec)
+    }
+}
+
+/// Takes what the command line says, if it was written, over what the scene file says.
+fn over<T>(written: bool, mine: T, theirs: &mut T) {
+    if written {
+        *theirs = mine;
+    }
+}
+
 pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
-    let method = Method::from(args.method);
-    let name = args.method.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
-    let default_output = || PathBuf::from(format!("{}_{name}.png", args.relief.surface.stem()));
-    let output = args.output.clone().unwrap_or_else(default_output);
-    check_output(&output, &["png"], &read_files(args))?;
-    if args.frames == 1 {
-        given.unused(&["turn", "delay"], "one frame is no animation; see --frames");
-    }
-    let bytes = u64::from(args.frames) * u64::from(args.size.width) * u64::from(args.size.height) * 4;
-    if args.frames > 1 && bytes > MAX_ANIMATION_BYTES {
-        let message =
-            format!("{} frames of this --size take {:.1} GB, and 4 GiB is the limit", args.frames, bytes as f64 / 1e9);
-        return Err(usage(message));
-    }
-    let n = args.supersample;
-    let target = Target::new(args.size.width.saturating_mul(n), args.size.height.saturating_mul(n))?;
-    let relief = args.relief.load(method, given).map_err(|e| named(e, Path::new(&args.relief.surface.stem())))?;
-    if let Some(made) = &relief.quantized {
-        let (entries, rms) = (made.entries, made.error.rms_rad.to_degrees());
-        remark(format!("{}: {entries} entries, {rms:.3} degrees RMS", args.relief.surface.stem()));
-    }
-    let mut shoot = Shoot::new(args, &relief, target, args.light.surroundings(given)?);
-    let progress = Bars::new(args.relief.surface.stem());
-    progress.begin("rendering", args.frames.into());
-    let mut pictures = Vec::new();
-    for frame in 0..args.frames {
-        pictures.push(shoot.frame(frame)?);
+    let spec = match &args.relief.surface {
+        SurfaceArg::File(path) if scene::is_scene(path) => args.scene(path, given)?,
+        _ => args.spec(given),
+    };
+    let picture = &spec.picture;
+    let method = picture.method.name();
+    let output = picture.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}_{method}.png", spec.name)));
+    check_output(&output, &["png"], &spec.files())?;
+    picture.warn_of_unused(given);
+    check_size(picture)?;
+    check_animation(picture)?;
+
+    let stage = Stage::load(&spec)?;
+    let baked = stage.bake()?;
+    let mut painter = Painter::new(picture)?;
+    let progress = Bars::new(spec.name.as_str());
+    progress.begin("rendering", picture.frames.into());
+    let mut paintings = Vec::new();
+    for frame in 0..picture.frames {
+        paintings.push(painter.paint(&stage.scene(frame, &baked)?)?);
         progress.advance(1);
     }
+    let report = report(&stage, picture, &output, &paintings, painter.map_seconds());
+    let pictures: Vec<_> = paintings.into_iter().map(|p| p.picture).collect();
     let bytes = progress.step("packing", || match pictures.as_slice() {
         [only] => io::encode_picture_png(only),
-        _ => io::encode_apng(&pictures, args.delay),
+        _ => io::encode_apng(&pictures, picture.delay),
     })?;
     drop(progress);
     io::write_atomic(&output, &bytes)?;
-    remark(format!("{}: {} x {}", output.display(), args.size.width, args.size.height));
+    remark(format!("{}: {} x {}", output.display(), picture.size.width, picture.size.height));
     if output.as_os_str() != "-" {
-        shoot.report(&name, &output).print(args.json)?;
+        report.print(args.json)?;
     }
     Ok(Outcome::Done)
 }
 
-/// The files that are read, so that none of them is written over.
-fn read_files(args: &Args) -> Vec<&Path> {
-    args.relief.files().into_iter().chain(args.light.environment.as_deref()).collect()
+fn check_animation(picture: &PictureSpec) -> Result<()> {
+    let (frames, size) = (picture.frames, picture.size);
+    let bytes = u64::from(frames) * u64::from(size.width) * u64::from(size.height) * 4;
+    if frames > 1 && bytes > MAX_ANIMATION_BYTES {
+        let gigabytes = bytes as f64 / 1e9;
+        return Err(usage(format!("{frames} frames of this size take {gigabytes:.1} GB, and 4 GiB is the limit")));
+    }
+    Ok(())
 }
 
-/// The frames of one call, and what they took.
-struct Shoot<'a> {
-    args: &'a Args,
-    relief: &'a Relief,
-    target: Target,
-    materials: Vec<rilievo::light::Material>,
-    surroundings: Surroundings,
-    table_seconds: f64,
-    draw_seconds: f64,
-}
-
-impl<'a> Shoot<'a> {
-    fn new(args: &'a Args, relief: &'a Relief, target: Target, surroundings: Surroundings) -> Self {
-        let materials = {
-            let default = |m| relief.default_materials.material(m);
-            args.material.resolve(relief.material_count(), &args.light, default)
-        };
-        Self { args, relief, target, materials, surroundings, table_seconds: 0.0, draw_seconds: 0.0 }
+/// Times are means over the frames, counts of pixels and triangles those of the last frame.
+fn report(
+    stage: &Stage<'_>,
+    picture: &PictureSpec,
+    output: &Path,
+    paintings: &[Painting],
+    map_seconds: Option<f64>,
+) -> Report {
+    let mean = |of: fn(&Painting) -> f64| paintings.iter().map(of).sum::<f64>() / paintings.len() as f64;
+    let reliefs = || stage.props().iter().map(|p| &p.relief);
+    let triangles = |of: fn(&rilievo::surface::Mesh) -> usize| reliefs().map(|r| of(&r.mesh)).sum::<usize>();
+    let dropped = triangles(rilievo::surface::Mesh::dropped_triangles);
+    let mut report = Report::default();
+    report
+        .add("output", output.display().to_string())
+        .add("method", picture.method.name())
+        .add("renderer", if picture.reference { "reference" } else { "tiles" })
+        .add("frames", picture.frames)
+        .add_f64("seconds_per_frame", mean(|p| p.seconds))
+        .add_f64("table_seconds", mean(|p| p.table_seconds));
+    if let Some(seconds) = map_seconds {
+        report.add_f64("map_seconds", seconds);
     }
-
-    fn frame(&mut self, frame: u32) -> Result<Picture> {
-        let args = self.args;
-        let turn = frame as f32 / args.frames as f32 * std::f32::consts::TAU;
-        let turn_of = |what: Turn| if args.turn == what { turn } else { 0.0 };
-        let object = Object {
-            // About the middle of the object, not about its origin.
-            pose: Pose::turned_about(self.relief.mesh.bounding_sphere().0, turn_of(Turn::Object)),
-            base_color: self.relief.base_color(),
-            blend: args.light.blend.into(),
-            double_sided: args.double_sided,
-            edges: args.relief.edges(),
-            ..Object::new(&self.relief.mesh, self.relief.detail(), &self.materials)
-        };
-        let aspect = args.size.width as f32 / args.size.height as f32;
-        let mut lighting = args.light.lighting(&self.surroundings, turn_of(Turn::Light));
-        lighting.lights.extend(args.points.resolve(self.relief.mesh.bounding_sphere(), turn_of(Turn::Light)));
-        let scene = Scene {
-            objects: vec![object],
-            lighting,
-            camera: args.camera.turned(turn_of(Turn::Camera)).resolve(&self.relief.mesh, aspect)?,
-        };
-        let started = Instant::now();
-        let prepared: Frame<'_> = raster::prepare(&scene, args.method.into(), args.sampling.into())?;
-        let lit = Instant::now();
-        self.target.clear();
-        raster::draw(&prepared, &mut self.target);
-        self.table_seconds += (lit - started).as_secs_f64();
-        self.draw_seconds += lit.elapsed().as_secs_f64();
-        Ok(self.target.resolve(args.supersample, args.background.map(|c| c.0))?)
-    }
-
-    fn report(&self, method: &str, output: &std::path::Path) -> Report {
-        let frames = f64::from(self.args.frames);
-        let mut report = Report::default();
-        report
-            .add("output", output.display().to_string())
-            .add("method", method)
-            .add("frames", self.args.frames)
-            .add_f64("seconds_per_frame", (self.table_seconds + self.draw_seconds) / frames)
-            .add_f64("table_seconds", self.table_seconds / frames)
-            .add("covered_pixels", self.target.covered_pixels() / u64::from(self.args.supersample).pow(2));
-        if let Some(quantized) = &self.relief.quantized {
-            report
-                .add("entries", quantized.entries)
-                .add_angles(&quantized.error)
-                .add_f64("quantize_seconds", quantized.seconds);
+    if let Some(last) = paintings.last() {
+        report.add("covered_pixels", last.covered_pixels);
+        if let Some(skipped) = last.skipped {
+            remark_skipped(&skipped);
+            report.add(
+                "skipped",
+                json!({
+                    "outside": skipped.outside,
+                    "back_facing": skipped.back_facing,
+                    "too_small": skipped.too_small,
+                    "without_area": dropped,
+                }),
+            );
         }
-        report
     }
+    report.add("objects", stage.props().len()).add("triangles", triangles(|m| m.triangles().len()));
+    let made: Vec<_> = reliefs().filter_map(|r| r.quantized.as_ref()).collect();
+    if !made.is_empty() {
+        report.add("entries", made.iter().map(|m| m.entries).sum::<usize>());
+    }
+    match made.as_slice() {
+        [] => {}
+        [only] => _ = report.add_angles(&only.error),
+        several => {
+            report.add_f64s("object_rms_deg", several.iter().map(|m| m.error.rms_rad.to_degrees()));
+        }
+    }
+    if !made.is_empty() {
+        report.add_f64("quantize_seconds", made.iter().map(|m| m.seconds).sum());
+    }
+    report
+}
+
+/// Tells of triangles that are not in the picture. (Of a closed surface half are turned away: that is no news. Those
+/// without an area were told of when the mesh was read.)
+fn remark_skipped(skipped: &Skipped) {
+    let counts = [
+        (skipped.outside, "outside the view or behind the camera"),
+        (skipped.too_small, "too small to cover the middle of a pixel"),
+    ];
+    let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{n} {why}")).collect();
+    if !told.is_empty() {
+        remark(format!("triangles left out: {}", told.join(", ")));
+    }
+}
+
+/// What a command line of `render` asks for, its first word being the surface.
+#[cfg(test)]
+pub(crate) fn asked_for(words: &[&str]) -> SceneSpec {
+    use clap::{Args as _, FromArgMatches};
+
+    let program = clap::Command::new("rilievo").subcommand(Args::augment_args(clap::Command::new("render")));
+    let matches = program.clone().get_matches_from([&["rilievo", "render"], words].concat());
+    let render = matches.subcommand_matches("render").expect("that is the command");
+    Args::from_arg_matches(render).expect("these are flags of it").spec(&Given::of(&program, &matches))
 }

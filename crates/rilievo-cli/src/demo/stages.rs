@@ -7,11 +7,12 @@ use anyhow::Result;
 use glam::{Vec2, Vec3};
 use rilievo::color::Picture;
 use rilievo::height::{Filter, to_normals};
-use rilievo::light::{Blend, Light, Lighting, ShadeTable};
+use rilievo::light::{Blend, Light, Lighting, Material, ShadeTable};
 use rilievo::measure::{DEFAULT_PIXELS_PER_DEGREE, flip_mean, picture_stats};
 use rilievo::normal::normal_levels;
 use rilievo::quantize::{Effort, Options, Quantized, fejes_toth_rms_rad, quantize};
-use rilievo::raster::{self, BaseColor, Detail, Method, Object, Scene, Target, TextureFilter};
+use rilievo::raster::tile::{self, Renderer, empty_picture};
+use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, TextureFilter, average_samples};
 use rilievo::sample::vase;
 use rilievo::surface::{Camera, Deflect, Deflected, Mesh, deflect_heights};
 use rilievo::{
@@ -39,6 +40,7 @@ pub(crate) struct Demo<'a> {
     mesh: Mesh,
     maps: vase::VaseMaps,
     color: MipChain<LinearRgb>,
+    materials: Vec<Material>,
     maps_seconds: f64,
 }
 
@@ -50,7 +52,8 @@ impl<'a> Demo<'a> {
         let maps_seconds = started.elapsed().as_secs_f64();
         let mesh = vase::mesh(vase::DEFAULT_SEGMENTS)?;
         let color = MipChain::from_picture(&maps.color);
-        Ok(Self { folder, mesh, maps, color, maps_seconds })
+        let materials = vase::materials_over_color().to_vec();
+        Ok(Self { folder, mesh, maps, color, materials, maps_seconds })
     }
 
     /// All stages, in the order of the pipeline.
@@ -206,20 +209,23 @@ impl<'a> Demo<'a> {
     fn pictures(&self, bent: &Deflected, tables: &[Quantized<ObjectSpace>], bars: &Bars) -> Result<Section> {
         let levels = normal_levels(bent.normals.clone(), Some(self.maps.materials.clone()), Some(&bent.covered))?;
         let exact_detail = Detail::Object { normals: &levels.normals, materials: levels.materials.as_ref() };
+        let mut renderer = Renderer::new();
         let azimuths = [-80.0, -40.0, 0.0, 40.0, 80.0];
         bars.begin("stills", azimuths.len() as u64 + 2);
         let mut entries = Vec::new();
         let mut stills = Vec::new();
         for (i, azimuth) in azimuths.into_iter().enumerate() {
-            let still = self.render(Detail::Indexed(&tables[1].map), Method::Table, azimuth, 0.0, STILL)?;
+            let still =
+                self.render(&mut renderer, Detail::Indexed(&tables[1].map), Method::Table, azimuth, 0.0, STILL)?;
             let file = format!("still_{}.png", i + 1);
             entries.push(self.write(&file, &io::encode_picture_png(&still)?, format!("light from {azimuth:+.0}°"))?);
             stills.push(still);
             bars.advance(1);
         }
-        let exact = self.render(exact_detail, Method::Exact, azimuths[1], 0.0, STILL)?;
+        let exact = self.render(&mut renderer, exact_detail, Method::Exact, azimuths[1], 0.0, STILL)?;
         bars.advance(1);
-        let small = self.render(Detail::Indexed(&tables[0].map), Method::Table, azimuths[1], 0.0, STILL)?;
+        let small =
+            self.render(&mut renderer, Detail::Indexed(&tables[0].map), Method::Table, azimuths[1], 0.0, STILL)?;
         bars.advance(1);
         let compare = |picture: &Picture| -> Result<String> {
             let psnr = picture_stats(&exact, picture)?.psnr_db;
@@ -243,41 +249,46 @@ impl<'a> Demo<'a> {
     fn turntable(&self, table: &Quantized<ObjectSpace>, bars: &Bars) -> Result<Section> {
         bars.begin("turntable", TURNTABLE_FRAMES.into());
         let started = Instant::now();
+        let mut renderer = Renderer::new();
         let mut frames = Vec::new();
         for frame in 0..TURNTABLE_FRAMES {
             let turn = frame as f32 / TURNTABLE_FRAMES as f32 * std::f32::consts::TAU;
-            frames.push(self.render(Detail::Indexed(&table.map), Method::Table, -40.0, turn, TURNTABLE)?);
+            let detail = Detail::Indexed(&table.map);
+            frames.push(self.render(&mut renderer, detail, Method::Table, -40.0, turn, TURNTABLE)?);
             bars.advance(1);
         }
         let seconds = started.elapsed().as_secs_f64() / f64::from(TURNTABLE_FRAMES);
         let apng = io::encode_apng(&frames, TURNTABLE_DELAY)?;
         let entries = vec![self.write("turntable.png", &apng, "an animated PNG")?];
-        let text = format!("{TURNTABLE_FRAMES} frames, {seconds:.3} s each with the reference renderer.");
+        let text =
+            format!("{TURNTABLE_FRAMES} frames, {seconds:.3} s each, {SUPERSAMPLE} × {SUPERSAMPLE} samples a pixel.");
         Ok(Section { title: "Turntable", text, entries })
     }
 
-    fn render(
-        &self,
-        detail: Detail<'_>,
+    /// A picture; `renderer` knows the maps from the pictures before.
+    fn render<'s>(
+        &'s self,
+        renderer: &mut Renderer<'s>,
+        detail: Detail<'s>,
         method: Method,
         light_deg: f32,
         turn_rad: f32,
         size: (u32, u32),
     ) -> Result<Picture> {
-        let materials = vase::materials_over_color();
         let sphere = self.mesh.bounding_sphere();
         let object = Object {
             pose: Pose::turned_about(sphere.0, turn_rad),
             base_color: Some(BaseColor { levels: &self.color, repeat: Vec2::ONE }),
-            ..Object::new(&self.mesh, detail, &materials)
+            ..Object::new(&self.mesh, detail, &self.materials)
         };
         let aspect = size.0 as f32 / size.1 as f32;
         // The vase is taller than wide: the sphere about it need not fit the width.
         let camera = Camera::orbit(sphere, 0.0, 0.18, 1.02, 0.45, aspect.max(1.0))?;
         let scene = Scene { objects: vec![object], lighting: lights(light_deg, 35.0), camera };
-        let mut target = Target::new(size.0 * SUPERSAMPLE, size.1 * SUPERSAMPLE)?;
-        raster::draw(&raster::prepare(&scene, method, TextureFilter::Trilinear)?, &mut target);
-        Ok(target.resolve(SUPERSAMPLE, Some(LinearRgb::from_srgb(BACKGROUND)))?)
+        let mut samples = empty_picture(size.0 * SUPERSAMPLE, size.1 * SUPERSAMPLE)?;
+        let options = tile::Options { method, filter: TextureFilter::Trilinear, background: None };
+        renderer.draw(&scene, &options, &mut samples)?;
+        Ok(average_samples(&samples, SUPERSAMPLE, Some(LinearRgb::from_srgb(BACKGROUND)))?)
     }
 }
 

@@ -4,9 +4,11 @@
 mod compare;
 mod hostile;
 mod light;
+mod methods;
 mod normal;
 mod quantize;
 mod relight;
 mod render;
 mod runner;
+mod scene;
 mod usage;

@@ -39,5 +39,5 @@ pub mod vectors;
 pub use frame::{Frame, prepare};
 pub use reference::{bake_light_map, draw};
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
-pub use target::Target;
+pub use target::{Target, average_samples};
 pub use texture::TextureFilter;

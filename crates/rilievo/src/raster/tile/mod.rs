@@ -49,6 +49,9 @@ use crate::raster::project::{MAX_PICTURE_SIDE, Projection};
 use crate::raster::scene::{Detail, Method, Object, Scene};
 use crate::raster::texture::{Sampling, TextureFilter};
 
+/// The longest side of a picture that [`Renderer::draw`] takes, in pixels.
+pub const MAX_SIDE: u32 = MAX_PICTURE_SIDE;
+
 /// What a frame is drawn with.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Options {
@@ -102,7 +105,7 @@ impl<'a> Renderer<'a> {
     /// stays.
     ///
     /// # Errors
-    /// As [`crate::raster::prepare`], and [`Error::Parameter`] for a picture with a side above 16 384 pixels.
+    /// As [`crate::raster::prepare`], and [`Error::Parameter`] for a picture with a side above [`MAX_SIDE`].
     pub fn draw(&mut self, scene: &Scene<'a>, options: &Options, picture: &mut Picture) -> Result<Drawn> {
         let size = picture.size();
         if size.0.max(size.1) > MAX_PICTURE_SIDE {
