@@ -10,6 +10,7 @@ mod inputs;
 mod progress;
 mod relief;
 mod report;
+mod reproduce;
 mod surface;
 
 use std::process::ExitCode;
@@ -52,6 +53,7 @@ enum Command {
     Render(Box<commands::render::Args>),
     Compare(commands::compare::Args),
     Demo(commands::demo::Args),
+    Reproduce(commands::reproduce::Args),
     Completions(commands::completions::Args),
 }
 
@@ -77,6 +79,7 @@ fn run(cli: Cli, given: &Given) -> anyhow::Result<Outcome> {
         Command::Render(args) => commands::render::run(&args, given),
         Command::Compare(args) => commands::compare::run(&args, given),
         Command::Demo(args) => commands::demo::run(&args),
+        Command::Reproduce(args) => commands::reproduce::run(&args, given),
         Command::Completions(args) => commands::completions::run(&args),
     }
 }
