@@ -46,15 +46,15 @@ pub(crate) const SECTIONS: [Section; 9] = {
         Section { name, title, source, run }
     }
     [
-        of(HAST, "setup", "Table 1: setup of the quadratic denominator", setup::run),
-        of(HAST, "interpolation", "Table 2: what interpolation costs", interpolation::run),
-        of(HAST, "torus", "Figures 3–8: bumpy tori", torus::run),
-        of(HAST, "lengths", "Section 2: lengths of interpolated vectors", lengths::run),
-        of(TARINI, "overhead", "Table 1: overhead of the shade table", overhead::run),
-        of(TARINI, "entries", "Figure 3: loss by quantisation", entries::run),
-        of(TARINI, "dithering", "Figure 4: dithered normals", dithering::run),
-        of(TARINI, "models", "Figures 5–7: lighting models", models::run),
-        of(TARINI, "materials", "Figures 8–10: materials in one index map", materials::run),
+        of(HAST, "setup", "Hast et al., table 1: setup of the quadratic denominator", setup::run),
+        of(HAST, "interpolation", "Hast et al., table 2: what interpolation costs", interpolation::run),
+        of(HAST, "torus", "Hast et al., figures 3–8: bumpy tori", torus::run),
+        of(HAST, "lengths", "Hast et al., section 2: lengths of interpolated vectors", lengths::run),
+        of(TARINI, "overhead", "Tarini et al., table 1: overhead of the shade table", overhead::run),
+        of(TARINI, "entries", "Tarini et al., figure 3: loss by quantisation", entries::run),
+        of(TARINI, "dithering", "Tarini et al., figure 4: dithered normals", dithering::run),
+        of(TARINI, "models", "Tarini et al., figures 5–7: lighting models", models::run),
+        of(TARINI, "materials", "Tarini et al., figures 8–10: materials in one index map", materials::run),
     ]
 };
 

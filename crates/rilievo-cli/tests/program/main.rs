@@ -8,5 +8,6 @@ mod normal;
 mod quantize;
 mod relight;
 mod render;
+mod reproduce;
 mod runner;
 mod usage;

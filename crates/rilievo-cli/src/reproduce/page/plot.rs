@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 /// Width and height of the picture.
 const SIZE: [f64; 2] = [760.0, 400.0];
 /// Left, right, top and bottom edge of the axes.
-const AREA: [f64; 4] = [66.0, 744.0, 16.0, 348.0];
+const AREA: [f64; 4] = [66.0, 732.0, 16.0, 348.0];
 /// The page has this many colours for lines.
 const COLORS: usize = 6;
 

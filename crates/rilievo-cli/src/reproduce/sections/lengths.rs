@@ -21,6 +21,8 @@ const PAPER_MAX: f64 = 3.2;
 const SHORTEST: f64 = 0.84875;
 const BIN: f64 = 0.0025;
 const BINS: usize = 88;
+/// The least share of the vectors that is shown, in hundredths.
+const LEAST_SHARE: f64 = 0.01;
 
 /// Deviations from unit length, of L' and H' alike.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,10 +57,12 @@ impl Lengths {
         100.0 * self.max
     }
 
-    /// Share of the vectors in each bin, in hundredths, over the middle of the bin.
+    /// Share of the vectors in each bin, in hundredths, over the middle of the bin; bins that are as good as empty are
+    /// left out.
     fn curve(&self) -> Vec<[f64; 2]> {
-        let share = |&n: &u64| 100.0 * n as f64 / self.count.max(1) as f64;
-        self.histogram.iter().enumerate().map(|(i, n)| [SHORTEST + (i as f64 + 0.5) * BIN, share(n)]).collect()
+        let share = |n: u64| 100.0 * n as f64 / self.count.max(1) as f64;
+        let all = self.histogram.iter().enumerate().map(|(i, &n)| [SHORTEST + (i as f64 + 0.5) * BIN, share(n)]);
+        all.filter(|point| point[1] >= LEAST_SHARE).collect()
     }
 }
 
@@ -91,7 +95,7 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     let curves = [0, 2, 3, 4].map(|m| Series::curve(METHODS[m].name, all[0].1[m].curve()));
     let share = format!("share of the vectors in each {BIN} of length, in %");
     let caption = format!("Lengths on the torus of 288 polygons: {share}. Normalised vectors would all stand at 1.");
-    found.show(Plot::new(caption, Axis::linear("length"), Axis::linear("share in %"), curves.to_vec()));
+    found.show(Plot::new(caption, Axis::linear("length"), Axis::decades("share in %"), curves.to_vec()));
     let [new_frames, averaged] = [&all[0].1[2], &all[0].1[3]];
     let (mean, max) = (new_frames.mean_percent() / PAPER_MEAN, new_frames.max_percent() / PAPER_MAX);
     let is_met = (0.6..=1.4).contains(&mean) && (0.6..=1.4).contains(&max);

@@ -17,6 +17,8 @@ use crate::reproduce::subjects::{Cover, Vase, flat_shaded, shoot, surroundings};
 const ENTRIES: u32 = 8192;
 /// What its wooden bunny has.
 const FEW: u32 = 2048;
+/// How much higher the relief of thick paint is.
+const THICKER: f32 = 2.5;
 
 pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     let vase = kit.vase()?;
@@ -29,7 +31,7 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     let few = step(vase.quantized_with(FEW, &vase.maps().materials))?;
     let alone = step(vase.quantized(ENTRIES, Dither::None))?;
     let halves = step(vase.quantized_with(FEW, &upper_half(&vase.maps().materials)?))?;
-    let thick = step(vase.quantized_relief(ENTRIES, 1.8))?;
+    let thick = step(vase.quantized_relief(ENTRIES, THICKER))?;
 
     let mut found = Findings::default();
     found.paper(
@@ -142,9 +144,18 @@ fn colored(
         "figure 10, first column: normals of the vertices",
     )?);
     let own = vase::materials_colored();
-    let shot = |map, title, caption| Shot::new(&by_table(kit, vase, map, &own, TABLE_ONLY)?, title, caption);
-    shots.add(shot(painted, "8192 normals and colours", "figure 10, second column: one pass, no colour texture")?);
-    shots.add(shot(thick, "thicker paint, deeper lines", "figure 10, last column: the relief 1.8 times as high")?);
+    let shot =
+        |map, title: &str, caption: String| Shot::new(&by_table(kit, vase, map, &own, TABLE_ONLY)?, title, caption);
+    shots.add(shot(
+        painted,
+        "8192 normals and colours",
+        "figure 10, second column: one pass, no colour texture".to_owned(),
+    )?);
+    shots.add(shot(
+        thick,
+        "thicker paint, deeper lines",
+        format!("figure 10, last column: the relief {THICKER} times as high"),
+    )?);
     Ok(shots)
 }
 
@@ -153,13 +164,14 @@ fn mixed(kit: &Kit<'_>, vase: &Vase, few: &Quantized<ObjectSpace>, halves: &Quan
     let gray = LinearRgb::new(0.5, 0.47, 0.45);
     let metal =
         LightingModel::MetallicRoughness { base_color: LinearRgb::new(0.9, 0.75, 0.5), metallic: 1.0, roughness: 0.3 };
-    let plastic = [Material::blinn_phong(gray, LinearRgb::gray(0.7), 90.0), Material::matte(gray)];
+    let shiny = Material::blinn_phong(gray * 0.8, LinearRgb::gray(0.9), 24.0);
+    let plastic = [shiny, Material::matte(gray)];
     let inlay = [Material::matte(LinearRgb::new(0.12, 0.1, 0.1)), Material::new([metal])];
     let cartoon = LightingModel::Cartoon { bands: Bands::of(LinearRgb::new(0.9, 0.55, 0.3)) };
     let chrome = LightingModel::Chrome { landscape: Landscape::BROWN_AND_BLUE };
     let models = [Material::new([cartoon]), Material::new([chrome])];
     let varnish =
-        [Material::blinn_phong(LinearRgb::WHITE, LinearRgb::gray(0.6), 60.0), Material::matte(LinearRgb::WHITE)];
+        [Material::blinn_phong(LinearRgb::WHITE, LinearRgb::gray(0.9), 24.0), Material::matte(LinearRgb::WHITE)];
     let textured = |blend| Look { cover: Cover::Painted, blend };
     let mut shots = Shots::new(4);
     let mut add = |map, materials: &[Material], look, title: &str, caption: &str| -> Result<()> {
@@ -180,7 +192,12 @@ fn mixed(kit: &Kit<'_>, vase: &Vase, few: &Quantized<ObjectSpace>, halves: &Quan
         "clay and glaze over their colours",
         "two materials of 2048 entries under a texture",
     )?;
-    let both = [Material::matte(LinearRgb::WHITE), Material::new([metal])];
-    add(few, &both, textured(Blend::Material), "metal glaze, white clay", "section 7.3: a base colour plays no part")?;
+    let copper = LightingModel::MetallicRoughness {
+        base_color: LinearRgb::new(0.85, 0.4, 0.25),
+        metallic: 1.0,
+        roughness: 0.25,
+    };
+    let both = [Material::matte(LinearRgb::new(0.3, 0.42, 0.5)), Material::new([copper])];
+    add(few, &both, textured(Blend::Material), "copper glaze, blue clay", "section 7.3: a base colour plays no part")?;
     Ok(shots)
 }

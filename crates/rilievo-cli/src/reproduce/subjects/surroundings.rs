@@ -21,7 +21,7 @@ pub(crate) fn surroundings() -> Result<Arc<Environment>> {
 fn room(turn: f32, up: f32) -> LinearRgb {
     // Behind the eye, which sees it mirrored, the middle of the room is at both ends of the panorama.
     for (middle, width, light) in
-        [(0.09, 0.065, LinearRgb::new(3.2, 3.4, 3.8)), (0.74, 0.09, LinearRgb::new(2.6, 2.7, 2.9))]
+        [(0.09, 0.065, LinearRgb::new(1.1, 1.2, 1.35)), (0.74, 0.09, LinearRgb::new(0.9, 0.95, 1.0))]
     {
         let (side, height) = ((turn - middle) / width, (up - 0.24) / 0.26);
         if side.abs() < 1.0 && height.abs() < 1.0 {

@@ -9,10 +9,12 @@ use rilievo::light::{Light, Lighting, Material};
 use rilievo::normal::{NormalLevels, normal_levels};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Dither, Effort, Options, Quantized, quantize};
-use rilievo::raster::{BaseColor, Detail, Object, Scene};
+use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, bake_light_map};
 use rilievo::sample::vase;
 use rilievo::surface::{Camera, Deflect, Deflected, Mesh, deflect_heights};
 use rilievo::{Edges, LinearRgb, MaterialMap, MipChain, Object as ObjectSpace, Progress, World};
+
+use super::pictures::{Shown, shoot};
 
 /// The mesh, its maps, and the normals of its relief.
 pub(crate) struct Vase {
@@ -109,6 +111,20 @@ impl Vase {
         let base_color = (cover == Cover::Painted).then_some(BaseColor { levels: &self.color, repeat: Vec2::ONE });
         let object = Object { base_color, ..Object::new(&self.mesh, detail, materials) };
         Ok(Scene { objects: vec![object], lighting, camera: self.camera(aspect)? })
+    }
+
+    /// What a table with an entry for every texel would show: one view direction and colours that are filtered, but nothing
+    /// quantised. What the method loses even so is not the quantiser's.
+    pub(crate) fn shoot_unquantized(
+        &self,
+        materials: &[Material],
+        lighting: &Lighting<World>,
+        size: (u32, u32),
+    ) -> Result<Shown> {
+        let aspect = size.0 as f32 / size.1 as f32;
+        let scene = self.scene(self.exact(), materials, Cover::None, lighting.clone(), aspect)?;
+        let lit = bake_light_map(&scene.objects[0], lighting, scene.camera.eye())?;
+        shoot(&self.scene(Detail::Baked(&lit), materials, Cover::None, lighting.clone(), aspect)?, Method::Static, size)
     }
 
     /// From the front, a little from above.

@@ -4,17 +4,15 @@ use std::hint::black_box;
 
 use anyhow::Result;
 use glam::Vec3;
-use rilievo::color::Picture;
 use rilievo::indexed::{NormalTable, QuantizedMap};
 use rilievo::light::{Light, Lighting, Material, Shade, ShadeTable};
-use rilievo::raster::tile::{Options, Renderer, empty_picture};
-use rilievo::raster::{Detail, Method, Object, Scene, TextureFilter, bake_light_map};
+use rilievo::raster::{Detail, Method, Object, Scene, bake_light_map};
 use rilievo::surface::Mesh;
 use rilievo::{LinearRgb, MipChain, Normal, Object as ObjectSpace, Pose, World};
 
 use super::{ENTRIES, MODELS, SPECULAR, spiral};
 use crate::reproduce::Kit;
-use crate::reproduce::subjects::{Cover, Vase, dense, surroundings};
+use crate::reproduce::subjects::{Cover, Easel, Vase, dense, surroundings};
 
 /// Faces around the dense vase: some 69 000 triangles, as many as the paper's bunny.
 const SEGMENTS: u32 = 182;
@@ -181,23 +179,5 @@ impl<'a> Subject<'a> {
         let lighting = lighting.to_object(&Pose::IDENTITY);
         black_box(ShadeTable::new(table, &self.materials[model], &lighting, Normal::Z, Vec3::ZERO)?);
         Ok(())
-    }
-}
-
-/// A picture, and who draws into it.
-struct Easel<'a> {
-    renderer: Renderer<'a>,
-    picture: Picture,
-}
-
-impl<'a> Easel<'a> {
-    fn new(side: u32) -> Result<Self> {
-        Ok(Self { renderer: Renderer::new(), picture: empty_picture(side.max(1), side.max(1))? })
-    }
-
-    /// Draws a frame; returns how many pixels it covers.
-    fn draw(&mut self, scene: &Scene<'a>, method: Method) -> Result<u64> {
-        let options = Options { method, filter: TextureFilter::Bilinear, background: None };
-        Ok(self.renderer.draw(scene, &options, &mut self.picture)?.covered_pixels)
     }
 }
