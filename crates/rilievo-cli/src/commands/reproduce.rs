@@ -33,7 +33,7 @@ pub(crate) struct Args {
     #[arg(long)]
     quick: bool,
     /// Height of pictures and side of timed frames, in pixels [default: 512, with --quick 96].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=2048))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=1024))]
     size: Option<u32>,
     /// List the sections and stop.
     #[arg(long)]

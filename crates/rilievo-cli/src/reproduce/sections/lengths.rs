@@ -101,7 +101,7 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     let is_met = (0.6..=1.4).contains(&mean) && (0.6..=1.4).contains(&max);
     found.remark(format!(
         "The paper's figures are {}: {:.2} % on average and {:.1} % at most beside its 0.45 % and 3.2 %. Vectors that are averaged at the \
-         midpoints are nearer to unit length ({:.2} %) and yet make the worse picture, so length alone is no measure of quality.",
+         midpoints are nearer to unit length ({:.2} %) and yet do not make the better picture: length alone is no measure of quality.",
         if is_met { "met" } else { "not met" },
         new_frames.mean_percent(),
         new_frames.max_percent(),
@@ -186,7 +186,9 @@ mod tests {
     #[test]
     fn deviations_are_counted_on_both_sides_of_one() {
         let mut lengths = Lengths::new();
-        [0.98, 1.01, 1.0, 5.0].map(|l| lengths.add(l));
+        for length in [0.98, 1.01, 1.0, 5.0] {
+            lengths.add(length);
+        }
         assert!((lengths.mean_percent() - 100.0 * (0.02 + 0.01 + 4.0) / 4.0).abs() < 1e-9);
         assert!((lengths.max_percent() - 400.0).abs() < 1e-9);
         assert_eq!(lengths.histogram.iter().sum::<u64>(), 4);

@@ -139,7 +139,7 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     ));
     let mut shots = Shots::new(4);
     let mut table = Table::new(
-        "PSNR in dB against shading by the pixel, over the pixels the vase covers; and what the time of the table is.",
+        "PSNR in dB against shading by the pixel, over the pixels the vase covers, and the time to light the table.",
         vec![
             Column::here("model"),
             Column::here(format!("{ENTRIES} entries")),

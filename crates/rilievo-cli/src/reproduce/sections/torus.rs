@@ -103,16 +103,16 @@ fn remark(found: &mut Findings, tables: &[Psnr]) {
     };
     let mean = |m: usize| tables[1][m].iter().sum::<f64>() / VIEWS.len() as f64;
     let ahead = mean(2) - mean(1);
-    let verdict = if ahead.abs() < 3.0 { "agrees with the paper's eye" } else { "is more than the paper's eye tells" };
+    let verdict = if ahead.abs() < 3.0 { "the paper's eye is right" } else { "it is more than the paper's eye tells" };
     found.remark(format!(
         "Linear vectors lose the highlight as the paper shows. With 288 polygons quadratic interpolation through new frames reaches {} dB \
-         and normalised vectors {} dB: that the two look much the same, {ahead:+.1} dB on average, {verdict}.",
+         and normalised vectors {} dB. That the two look almost the same: with {ahead:+.1} dB on average {verdict}.",
         range(2, 1),
         range(1, 1)
     ));
     found.remark(format!(
         "What is left of the error with new frames is not the polynomial's: the mean of two tangents is not orthogonal to the mean of their \
-         normals. Made orthogonal at the midpoints, which the paper does not do, the same method reaches {} dB at the same cost. The \
+         normals. Made orthogonal at the midpoints, which the paper does not do, the same method reaches {} dB at about the same cost. The \
          paper's second way, averaged vectors, is as good as normalising ({} dB): its vectors are nearest to unit length, but their \
          direction misses how the surface turns between the corners.",
         range(4, 1),

@@ -157,17 +157,12 @@ fn remark(found: &mut Findings, timed: &Timed, rivals: &[Rival], scaling: &[Scal
         (Some(one), Some(many)) => value(many) / value(one),
         _ => f64::NAN,
     };
-    let against_map = of("table") / of("static");
-    let why = if against_map < 0.98 {
-        ", less than one: a texel of the light map is six numbers here, colour and highlight apart, and one of the index map two bytes"
-    } else {
-        ""
-    };
     found.remark(format!(
-        "Against a light map the lit table costs {against_map:.2} × the time{why} (paper: 16 against 15.5 frames a second). Per-pixel shading, which \
+        "Against a light map the lit table costs {:.2} × the time (paper: 16 against 15.5 frames a second). Per-pixel shading, which \
          the paper's board could not do, takes {:.2} × the time of the table under one light; under sixteen its frame takes \
          {:.1} × as long as under one, the table's {:.1} ×. The dense mesh, at least eight times slower in the paper, takes {:.1} × the time of \
          the table here: triangles of a few pixels are what a processor's renderer is worst at, but not so bad as the paper's board.",
+        of("table") / of("static"),
         of("exact") / of("table"),
         grown(|s| s.exact),
         grown(|s| s.frame),
