@@ -1,5 +1,6 @@
 //! `rilievo reproduce`: the papers' tables and figures, measured again.
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -54,6 +55,10 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     }
     check_output(&args.output, &["html", "htm"], &[])?;
     let sections = chosen(&args.only)?;
+    // A minute's work should not end at a folder that is not there.
+    if let Some(folder) = args.output.parent().filter(|f| !f.as_os_str().is_empty()) {
+        fs::metadata(folder).with_context(|| folder.display().to_string())?;
+    }
     let size = args.size.unwrap_or(if args.quick { 96 } else { 512 });
     let report = reproduce::run(&sections, args.quick, size)?;
     rilievo_io::write_atomic(&args.output, report.html.as_bytes())?;

@@ -99,7 +99,7 @@ fn tables_are_as_in_the_paper(report: &Value) {
         materials("painted_8192_entries")
     );
     assert!(materials("painted_8192_rms_deg") < materials("painted_2048_rms_deg"));
-    assert!((15.0..60.0).contains(&materials("equation_2_against_1_psnr_db")));
+    assert!((15.0..80.0).contains(&materials("equation_2_against_1_psnr_db")));
     // Nothing quantised is never farther off than a table of 16.
     assert!(entries(16, "psnr_db") < figure(report, "entries", "unquantised_psnr_db"));
 }
@@ -125,6 +125,7 @@ fn wrong_sections_and_outputs_are_refused_before_any_work() {
     room.run("reproduce --only overhead,none").fails(2, &["'none'", "overhead", "materials"]);
     room.run("reproduce --quick -o report.pdf").fails(2, &["report.pdf", ".html"]);
     room.run("reproduce --quick -o - --json").fails(2, &["standard output"]);
+    room.run("reproduce --quick -o nowhere/report.html").fails(3, &["nowhere"]);
     room.run("reproduce --quick --size 9").fails(2, &["9"]);
     room.run("reproduce --list --quick").warns(&["--quick", "not used"]);
     assert!(room.files().is_empty());

@@ -126,8 +126,10 @@ fn write_to(out: &mut String, text: std::fmt::Arguments<'_>) {
     let _ = out.write_fmt(text);
 }
 
-/// Text as it stands between tags or in quotes.
+/// Text as it stands between tags or in quotes. Figures stay on a line with their units.
 fn escape(text: &str) -> String {
+    let text =
+        [" ×", "× ", " %", " dB"].iter().fold(text.to_owned(), |t, unit| t.replace(unit, &unit.replace(' ', "\u{a0}")));
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     found.remark(format!(
         "The paper has pictures only; all of their kinds are here. That two materials share a table of {ENTRIES} costs {together:.2}° RMS against \
          {alone:.2}° for the normals alone. Equation (2), which the paper takes for an acceptable approximation, is {equations:.1} dB from \
-         equation (1): it loses highlights where the paint is bright."
+         equation (1) on this dark paint; on white paint it would show no highlights at all."
     ));
     Ok(found)
 }

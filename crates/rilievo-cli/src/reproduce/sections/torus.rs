@@ -103,10 +103,10 @@ fn remark(found: &mut Findings, tables: &[Psnr]) {
     };
     let mean = |m: usize| tables[1][m].iter().sum::<f64>() / VIEWS.len() as f64;
     let ahead = mean(2) - mean(1);
-    let verdict = if ahead.abs() < 3.0 { "the paper's eye is right" } else { "it is more than the paper's eye tells" };
+    let verdict = if ahead.abs() < 3.0 { "its eye is right" } else { "it is more than its eye tells" };
     found.remark(format!(
         "Linear vectors lose the highlight as the paper shows. With 288 polygons quadratic interpolation through new frames reaches {} dB \
-         and normalised vectors {} dB. That the two look almost the same: with {ahead:+.1} dB on average {verdict}.",
+         and normalised vectors {} dB. The paper finds the two almost the same: with {ahead:+.1} dB on average {verdict}.",
         range(2, 1),
         range(1, 1)
     ));
