@@ -12,6 +12,7 @@ mod relief;
 mod report;
 mod scene;
 mod shoot;
+mod reproduce;
 mod surface;
 
 use std::process::ExitCode;
@@ -54,6 +55,7 @@ enum Command {
     Render(Box<commands::render::Args>),
     Compare(commands::compare::Args),
     Demo(commands::demo::Args),
+    Reproduce(commands::reproduce::Args),
     Completions(commands::completions::Args),
 }
 
@@ -80,6 +82,7 @@ fn run(cli: Cli, given: &Given) -> anyhow::Result<Outcome> {
         Command::Render(args) => commands::render::run(&args, given),
         Command::Compare(args) => commands::compare::run(&args, given),
         Command::Demo(args) => commands::demo::run(&args),
+        Command::Reproduce(args) => commands::reproduce::run(&args, given),
         Command::Completions(args) => commands::completions::run(&args),
     }
 }

@@ -7,3 +7,4 @@ pub(crate) mod normal;
 pub(crate) mod quantize;
 pub(crate) mod relight;
 pub(crate) mod render;
+pub(crate) mod reproduce;

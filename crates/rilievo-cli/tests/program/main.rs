@@ -9,6 +9,7 @@ mod normal;
 mod quantize;
 mod relight;
 mod render;
+mod reproduce;
 mod runner;
 mod scene;
 mod usage;

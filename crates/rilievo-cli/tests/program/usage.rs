@@ -1,6 +1,6 @@
 use crate::runner::Room;
 
-const COMMANDS: [&str; 7] = ["normal", "quantize", "relight", "render", "compare", "demo", "completions"];
+const COMMANDS: [&str; 8] = ["normal", "quantize", "relight", "render", "compare", "demo", "reproduce", "completions"];
 
 #[test]
 fn every_command_has_help_with_examples() {

@@ -1,0 +1,11 @@
+//! A file for each table or figure.
+
+pub(super) mod dithering;
+pub(super) mod entries;
+pub(super) mod interpolation;
+pub(super) mod lengths;
+pub(super) mod materials;
+pub(super) mod models;
+pub(super) mod overhead;
+pub(super) mod setup;
+pub(super) mod torus;
