@@ -10,9 +10,9 @@ mod inputs;
 mod progress;
 mod relief;
 mod report;
+mod reproduce;
 mod scene;
 mod shoot;
-mod reproduce;
 mod surface;
 
 use std::process::ExitCode;
