@@ -286,7 +286,7 @@ impl<'a> Demo<'a> {
         let camera = Camera::orbit(sphere, 0.0, 0.18, 1.02, 0.45, aspect.max(1.0))?;
         let scene = Scene { objects: vec![object], lighting: lights(light_deg, 35.0), camera };
         let mut samples = empty_picture(size.0 * SUPERSAMPLE, size.1 * SUPERSAMPLE)?;
-        let options = tile::Options { method, filter: TextureFilter::Trilinear, background: None };
+        let options = tile::Options { method, filter: TextureFilter::Trilinear, ..tile::Options::default() };
         renderer.draw(&scene, &options, &mut samples)?;
         Ok(average_samples(&samples, SUPERSAMPLE, Some(LinearRgb::from_srgb(BACKGROUND)))?)
     }

@@ -105,7 +105,7 @@ impl<'a> Painter<'a> {
                 // see the clock, and does not count twice.
                 drop(frame);
                 let background = spec.background.filter(|_| spec.samples == 1);
-                let options = tile::Options { method, filter, background };
+                let options = tile::Options { method, filter, background, ..tile::Options::default() };
                 if self.map_seconds.is_none() {
                     // On a picture of one pixel there is nothing else to do.
                     let started = Instant::now();

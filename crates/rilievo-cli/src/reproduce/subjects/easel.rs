@@ -19,7 +19,7 @@ impl<'a> Easel<'a> {
 
     /// Draws a frame; returns how many pixels it covers.
     pub(crate) fn draw(&mut self, scene: &Scene<'a>, method: Method) -> Result<u64> {
-        let options = Options { method, filter: TextureFilter::Bilinear, background: None };
+        let options = Options { method, filter: TextureFilter::Bilinear, ..Options::default() };
         Ok(self.renderer.draw(scene, &options, &mut self.picture)?.covered_pixels)
     }
 }
