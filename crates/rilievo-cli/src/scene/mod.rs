@@ -60,6 +60,8 @@ pub(crate) struct PictureSpec {
     pub(crate) background: Option<LinearRgb>,
     /// Samples along each side of a pixel.
     pub(crate) samples: u32,
+    /// Four samples a pixel for outlines alone.
+    pub(crate) antialias: bool,
     pub(crate) frames: u32,
     pub(crate) turn: Turn,
     /// Milliseconds a frame is shown.

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use rilievo::color::Picture;
-use rilievo::raster::tile::{self, Renderer, Skipped, empty_picture};
+use rilievo::raster::tile::{self, Renderer, Samples, Skipped, empty_picture};
 use rilievo::raster::{self, Scene, Target, average_samples};
 
 use crate::exit::usage;
@@ -52,6 +52,17 @@ pub(crate) fn check_size(spec: &PictureSpec) -> Result<()> {
         let with = if n > 1 { format!(" with {n} x {n} samples a pixel") } else { String::new() };
         return Err(usage(format!(
             "a picture of {w} x {h}{with} is drawn {width} x {height} pixels large, and {max} a side is the limit"
+        )));
+    }
+    if spec.antialias && (spec.samples > 1 || spec.reference) {
+        let why = if spec.reference {
+            "the reference renderer has no such samples"
+        } else {
+            "its samples smooth outlines already"
+        };
+        return Err(usage(format!(
+            "--antialias goes without {}: {why}",
+            if spec.reference { "--reference" } else { "--supersample" }
         )));
     }
     rilievo::grid::check_size(width.into(), height.into())?;
@@ -105,7 +116,8 @@ impl<'a> Painter<'a> {
                 // see the clock, and does not count twice.
                 drop(frame);
                 let background = spec.background.filter(|_| spec.samples == 1);
-                let options = tile::Options { method, filter, background, ..tile::Options::default() };
+                let samples_in_pixel = if spec.antialias { Samples::Four } else { Samples::One };
+                let options = tile::Options { method, filter, samples: samples_in_pixel, background };
                 if self.map_seconds.is_none() {
                     // On a picture of one pixel there is nothing else to do.
                     let started = Instant::now();

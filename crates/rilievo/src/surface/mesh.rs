@@ -34,6 +34,8 @@ pub struct Mesh {
     tangents: Vec<Vec4>,
     triangles: Vec<[u32; 3]>,
     dropped_triangles: usize,
+    /// Wanted every frame, and it takes all vertices.
+    sphere: (Vec3, f32),
 }
 
 impl Mesh {
@@ -75,7 +77,12 @@ impl Mesh {
         triangles.retain(|t| !is_degenerate(corners(&positions, t)));
         normals::complete(&mut normals, &positions, &triangles);
         let dropped_triangles = given - triangles.len();
-        Ok(Self { positions, normals, uvs, tangents: Vec::new(), triangles, dropped_triangles })
+        let sphere = if triangles.is_empty() {
+            sphere_about(positions.iter().copied())
+        } else {
+            sphere_about(triangles.iter().flatten().map(|&i| positions[i as usize]))
+        };
+        Ok(Self { positions, normals, uvs, tangents: Vec::new(), triangles, dropped_triangles, sphere })
     }
 
     /// Vertex positions in object space.
@@ -156,11 +163,7 @@ impl Mesh {
     /// Centre of the bounding box and radius of the sphere about it, of all vertices that triangles use (of all there are
     /// if no triangle has an area). The radius is positive.
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
-        let used = self.triangles.iter().flatten().map(|&i| self.positions[i as usize]);
-        if self.triangles.is_empty() {
-            return sphere_about(self.positions.iter().copied());
-        }
-        sphere_about(used)
+        self.sphere
     }
 }
 

@@ -2,6 +2,7 @@
 //! ways. Coverage must be the same to the pixel; colours may be off by what is stated here, and nowhere else.
 #![expect(clippy::unwrap_used, reason = "scenes fail loudly")]
 
+mod antialias;
 mod scenes;
 
 use fearless_simd::Level;

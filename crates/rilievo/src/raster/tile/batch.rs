@@ -21,8 +21,15 @@ pub(super) trait Shader<const N: usize>: Sync {
     /// Prepares a triangle that owns a pixel of a tile.
     fn set_up(&self, triangle: &Seen<'_, N>) -> Self::SetUp;
 
+    /// What is looked up in large maps.
+    type Fetched<S: Simd>: Copy;
+
+    /// Looks up in large maps. This is done for a block before the one in front of it is shaded: the light of one block is
+    /// computed while the texels of the next are on their way from far-off memory.
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, Self::SetUp>) -> Self::Fetched<S>;
+
     /// Encoded colours of a block. Lanes that no part has may be anything.
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, Self::SetUp>) -> u32x16<S>;
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, Self::SetUp>, fetched: &Self::Fetched<S>) -> u32x16<S>;
 }
 
 /// A triangle with a visible pixel.
@@ -45,22 +52,21 @@ impl<const N: usize> Seen<'_, N> {
 
 /// Sixteen pixels, each of one triangle.
 pub(super) struct Block<'a, S: Simd, U> {
-    set_ups: &'a [U],
-    owners: &'a [Owner],
-    parts: &'a [PartOf],
-    /// The numbers of the owners, by pixel.
-    words: u32x16<S>,
+    triangles: &'a [Placed<U>],
+    /// Which of them meet here.
+    parts: &'a [u32],
+    /// For each pixel, which it is.
+    owners: u32x16<S>,
     /// Where the centres of the pixels are in the tile.
     x: f32x16<S>,
     y: f32x16<S>,
 }
 
-/// Which owner, and which set-up is its.
-#[derive(Debug, Clone, Copy, Default)]
-struct PartOf {
-    word: u32,
-    owner: u32,
-    set_up: u32,
+/// A triangle over a tile; set up when first seen.
+struct Placed<U> {
+    /// See [`Owner::start`].
+    start: [f32; 2],
+    set_up: Option<U>,
 }
 
 /// What one triangle has of a block.
@@ -83,13 +89,13 @@ impl<'a, S: Simd, U> Block<'a, S, U> {
     /// One of them.
     #[inline(always)]
     pub(super) fn part(&self, simd: S, i: usize) -> Part<'a, S, U> {
-        let part = self.parts[i];
-        let [right, down] = self.owners[part.owner as usize].start;
+        let owner = self.parts[i];
+        let Placed { start: [right, down], set_up } = &self.triangles[owner as usize];
         Part {
-            set_up: &self.set_ups[part.set_up as usize],
-            x: self.x + right,
-            y: self.y + down,
-            lanes: self.words.simd_eq(u32x16::splat(simd, part.word)),
+            set_up: set_up.as_ref().expect("invariant: what is seen was set up"),
+            x: self.x + *right,
+            y: self.y + *down,
+            lanes: self.owners.simd_eq(u32x16::splat(simd, owner)),
         }
     }
 }
@@ -142,66 +148,115 @@ impl<Sh: Shader<N>, const N: usize> Batch for Shaded<'_, Sh, N> {
     }
 }
 
-/// No set-up yet.
-const NONE: u32 = u32::MAX;
+/// Pixels of a block whose texels are on their way.
+struct Pending<S: Simd, F> {
+    number: usize,
+    owners: u32x16<S>,
+    /// For each sample, the pixels that it is to colour.
+    waiting: [mask32x16<S>; 4],
+    parts: [u32; LANES],
+    count: usize,
+    fetched: Option<F>,
+}
+
+impl<S: Simd, F> Pending<S, F> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        let (owners, waiting) = (u32x16::splat(simd, 0), [mask32x16::splat(simd, false); 4]);
+        Self { number: 0, owners, waiting, parts: [0; LANES], count: 0, fetched: None }
+    }
+
+    #[inline(always)]
+    fn block<'a, U>(&'a self, simd: S, triangles: &'a [Placed<U>]) -> Block<'a, S, U> {
+        let [x, y] = pixels(simd);
+        Block {
+            triangles,
+            parts: &self.parts[..self.count],
+            owners: self.owners,
+            x: x + (self.number % BLOCKS * BLOCK) as f32,
+            y: y + (self.number / BLOCKS * BLOCK) as f32,
+        }
+    }
+
+    /// Finds the pixels of block `number` whose owners are `count` from `first` on; whether there are any.
+    ///
+    /// The samples of a pixel may have several owners: those of the first now, the others when asked again.
+    #[inline(always)]
+    fn find(&mut self, simd: S, tile: &mut Tile, number: usize, first: u32, count: u32x16<S>) -> bool {
+        let samples = tile.samples();
+        let at = number * samples;
+        let mut owners = tile.word(simd, at) - first;
+        let mut any = owners.simd_lt(count);
+        for sample in 1..samples {
+            let owner = tile.word(simd, at + sample) - first;
+            owners = any.select(owners, owner);
+            any |= owner.simd_lt(count);
+        }
+        let mut left = any.to_bitmask() as u32;
+        if left == 0 {
+            return false;
+        }
+        (self.number, self.owners, self.waiting[0], self.count) = (number, owners, any, 0);
+        if samples > 1 {
+            for (sample, waiting) in self.waiting.iter_mut().enumerate().take(samples) {
+                let word = tile.word(simd, at + sample);
+                *waiting = any & (word - first).simd_eq(owners);
+                tile.set_word(at + sample, waiting.select(u32x16::splat(simd, TAKEN), word));
+            }
+        }
+        let mut of_lane = [0; LANES];
+        owners.store_array(&mut of_lane);
+        while left != 0 {
+            let owner = of_lane[left.trailing_zeros() as usize];
+            left &= !(owners.simd_eq(u32x16::splat(simd, owner)).to_bitmask() as u32);
+            self.parts[self.count] = owner;
+            self.count += 1;
+        }
+        true
+    }
+}
+
+/// A word that is no owner's number and no empty pixel: its colour will come.
+const TAKEN: u32 = 0xff00_0000;
 
 impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
     #[inline(always)]
     fn shade_lanes<S: Simd>(&self, simd: S, tile: &mut Tile, owners: &[Owner], first: u32) {
-        let mut set_ups: Vec<Sh::SetUp> = Vec::with_capacity(owners.len());
-        let mut set_up_of = vec![NONE; owners.len()];
-        let [lane_x, lane_y] = pixels(simd);
-        let count = u32x16::splat(simd, owners.len() as u32);
+        let place = |owner: &Owner| Placed { start: owner.start, set_up: None };
+        let mut triangles: Vec<Placed<Sh::SetUp>> = owners.iter().map(place).collect();
+        let owner_count = u32x16::splat(simd, owners.len() as u32);
         let samples = tile.samples();
-        for block in 0..BLOCKS * BLOCKS {
-            // Samples of a pixel may have several owners: one after the other.
-            loop {
-                // The first sample of each pixel that waits for its colour.
-                let mut words = tile.word(simd, block * samples);
-                let mut waiting = (words - first).simd_lt(count);
-                for sample in 1..samples {
-                    let next = tile.word(simd, block * samples + sample);
-                    words = waiting.select(words, next);
-                    waiting |= (next - first).simd_lt(count);
-                }
-                let mut left = waiting.to_bitmask() as u32;
-                if left == 0 {
-                    break;
-                }
-                let mut numbers = [0; LANES];
-                words.store_array(&mut numbers);
-                let (mut parts, mut len) = ([PartOf::default(); LANES], 0);
-                while left != 0 {
-                    let word = numbers[left.trailing_zeros() as usize];
-                    left &= !(words.simd_eq(u32x16::splat(simd, word)).to_bitmask() as u32);
-                    let owner = (word - first) as usize;
-                    if set_up_of[owner] == NONE {
-                        set_up_of[owner] = set_ups.len() as u32;
-                        set_ups.push(self.set_up(&owners[owner]));
+        // One is fetched for while the other is shaded.
+        let mut both = [Pending::<S, Sh::Fetched<S>>::new(simd), Pending::new(simd)];
+        let (mut turn, mut number) = (0, 0);
+        loop {
+            let next = &mut both[turn];
+            while number < BLOCKS * BLOCKS && !next.find(simd, tile, number, first, owner_count) {
+                number += 1;
+            }
+            let found = number < BLOCKS * BLOCKS;
+            if found {
+                for &owner in &next.parts[..next.count] {
+                    let triangle = &mut triangles[owner as usize];
+                    if triangle.set_up.is_none() {
+                        triangle.set_up = Some(self.set_up(&owners[owner as usize]));
                     }
-                    parts[len] = PartOf { word, owner: owner as u32, set_up: set_up_of[owner] };
-                    len += 1;
                 }
-                let color = self.shader.shade(
-                    simd,
-                    &Block {
-                        set_ups: &set_ups,
-                        owners,
-                        parts: &parts[..len],
-                        words,
-                        x: lane_x + (block % BLOCKS * BLOCK) as f32,
-                        y: lane_y + (block / BLOCKS * BLOCK) as f32,
-                    },
-                );
-                for sample in 0..samples {
-                    let at = block * samples + sample;
-                    let word = tile.word(simd, at);
-                    tile.set_word(at, (waiting & word.simd_eq(words)).select(color, word));
-                }
-                if samples == 1 {
-                    break;
+                next.fetched = Some(self.shader.fetch(simd, &next.block(simd, &triangles)));
+                number += usize::from(samples == 1);
+            }
+            let ready = &mut both[1 - turn];
+            if let Some(fetched) = ready.fetched.take() {
+                let color = self.shader.shade(simd, &ready.block(simd, &triangles), &fetched);
+                for (sample, waiting) in ready.waiting.iter().enumerate().take(samples) {
+                    let at = ready.number * samples + sample;
+                    tile.set_word(at, waiting.select(color, tile.word(simd, at)));
                 }
             }
+            if !found {
+                break;
+            }
+            turn = 1 - turn;
         }
     }
 
@@ -219,6 +274,6 @@ impl<Sh: Shader<N>, const N: usize> Shaded<'_, Sh, N> {
             None => (&self.front.attributes, corner as usize),
             Some(cut) => (&chunk.cut_attributes, cut),
         };
-        &values.as_chunks::<N>().0[at]
+        values[at * N..].first_chunk().expect("invariant: every corner has its attributes")
     }
 }

@@ -33,6 +33,14 @@ pub(super) struct Tile {
 #[repr(C, align(64))]
 struct Lanes<T>([T; LANES]);
 
+impl Lanes<f32> {
+    /// Of depths: where something was drawn.
+    #[inline(always)]
+    fn drawn<S: Simd>(&self, simd: S) -> u64 {
+        f32x16::load_array_ref(simd, &self.0).simd_lt(f32x16::splat(simd, NOTHING)).to_bitmask()
+    }
+}
+
 impl Tile {
     /// A tile with so many samples a pixel; it is to be cleared first.
     pub(super) fn new(samples: Samples) -> Self {
@@ -90,7 +98,10 @@ impl Tile {
     #[inline(always)]
     pub(super) fn set_farthest(&mut self, block: usize, farthest: f32) {
         let place = &mut self.farthest[block / BLOCKS].0[block % BLOCKS];
-        *place = place.min(farthest);
+        // Not `min`, which asks for NaN as well.
+        if farthest < *place {
+            *place = farthest;
+        }
     }
 
     /// Words of a sample of a block, given by block · samples + sample.
@@ -172,14 +183,19 @@ impl Tile {
             }
         }
         let mut covered = 0;
+        if [width, height] == [TILE, TILE] {
+            for depth in self.depth.iter().step_by(samples) {
+                covered += depth.drawn(simd).count_ones();
+            }
+            return u64::from(covered);
+        }
         for (i, depth) in self.depth.iter().step_by(samples).enumerate() {
-            let drawn = f32x16::load_array_ref(simd, &depth.0).simd_lt(f32x16::splat(simd, NOTHING)).to_bitmask();
             // At the right and lower border of the picture, blocks reach beyond it.
             let (columns, lines) =
                 (width.saturating_sub(i % BLOCKS * BLOCK), height.saturating_sub(i / BLOCKS * BLOCK));
-            covered += u64::from((drawn & pixels_within(columns, lines)).count_ones());
+            covered += (depth.drawn(simd) & pixels_within(columns, lines)).count_ones();
         }
-        covered
+        u64::from(covered)
     }
 }
 

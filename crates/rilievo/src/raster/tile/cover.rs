@@ -120,9 +120,9 @@ impl<const SAMPLES: usize> Edges<SAMPLES> {
     }
 }
 
-/// The blocks of a row from the one of pixel `x[0]` to the one of `x[1]`, a bit for each.
+/// The blocks of a row from number `x[0]` to number `x[1]`, a bit for each.
 pub(super) fn columns(x: [i32; 2]) -> u32 {
-    let [first, last] = x.map(|x| x as u32 / BLOCK as u32);
+    let [first, last] = x.map(|x| x as u32);
     (u32::MAX >> (31 - (last - first))) << first
 }
 

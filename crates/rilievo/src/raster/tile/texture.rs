@@ -141,16 +141,25 @@ impl Texture {
     /// The three components at texel number `at`: from −1 to 1 if `signed`, from 0 to 1 otherwise. Not normalised.
     #[inline(always)]
     pub(super) fn vector<S: Simd>(&self, simd: S, at: u32x16<S>, signed: bool) -> [f32x16<S>; 3] {
-        let (codes, most) = match self.format {
-            Format::Code8 => {
-                let word = gather(simd, &self.words, at);
-                ([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], 255.0)
-            }
-            _ => {
-                let first = at << 1;
-                let (xy, z) = (gather(simd, &self.words, first), gather(simd, &self.words, first + 1));
-                ([xy & 0xffff, xy >> 16, z], 65_535.0)
-            }
+        self.vector_of(simd, self.vector_words(simd, at), signed)
+    }
+
+    #[inline(always)]
+    fn vector_words<S: Simd>(&self, simd: S, at: u32x16<S>) -> [u32x16<S>; 2] {
+        if self.format == Format::Code8 {
+            return [gather(simd, &self.words, at), u32x16::splat(simd, 0)];
+        }
+        let first = at << 1;
+        [gather(simd, &self.words, first), gather(simd, &self.words, first + 1)]
+    }
+
+    /// [`Self::vector`] from the words of the texel.
+    #[inline(always)]
+    pub(super) fn vector_of<S: Simd>(&self, simd: S, [word, z]: [u32x16<S>; 2], signed: bool) -> [f32x16<S>; 3] {
+        let (codes, most) = if self.format == Format::Code8 {
+            ([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], 255.0)
+        } else {
+            ([word & 0xffff, word >> 16, z], 65_535.0)
         };
         let (scale, offset) = if signed { (2.0 / most, -1.0) } else { (1.0 / most, 0.0) };
         let (scale, offset) = (f32x16::splat(simd, scale), f32x16::splat(simd, offset));
@@ -178,6 +187,12 @@ impl Texture {
         for k in 0..taps.count {
             tap(taps.texels[k], taps.weights[k]);
         }
+    }
+
+    /// The words of the texel under each pixel; [`Self::vector_of`] reads them.
+    #[inline(always)]
+    pub(super) fn fetch_nearest<S: Simd>(&self, simd: S, look: &Look, at: &Footprint<S>) -> [u32x16<S>; 2] {
+        self.vector_words(simd, self.nearest(simd, look, at))
     }
 
     /// The texel under each pixel.

@@ -7,13 +7,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16, u32x16};
 
 use super::buffer::{BLOCK, BLOCKS, Tile};
-use super::cover::{COUNT, columns, pixels};
+use super::cover::{COUNT, Edges, columns, pixels};
 use super::front::{Chunk, Front, Triangle};
 use super::group::Group;
 use super::planes::{Plane, Sides};
 use super::samples::places;
 use crate::fill::SUBPIXEL_BITS;
-use crate::simd::three;
+use crate::simd::{three, two};
 
 /// A triangle that was nearest somewhere in a tile when it was drawn.
 #[derive(Debug, Clone, Copy)]
@@ -87,59 +87,90 @@ fn cover_triangle<S: Simd, const SAMPLES: usize>(
     word: u32,
     tile: &mut Tile,
 ) -> bool {
-    let (edges, depth, start) = (group.edges(lane), group.depth(lane), group.start(lane));
-    let [x0, x1, y0, y1] = group.bounds(lane);
+    let (edges, depth) = (group.edges(lane), group.depth(lane));
     let over_block = edges.over_block(simd);
-    let [lane_x, lane_y] = pixels(simd);
-    let reach = BlockReach::new::<SAMPLES>(&depth);
-    let in_columns = columns([x0, x1]);
-    // Few blocks are looked at one by one.
-    let wide = x1 / BLOCK as i32 > x0 / BLOCK as i32 + 1;
-    let word = u32x16::splat(simd, word);
-    let mut seen = false;
-    for by in y0 / BLOCK as i32..=y1 / BLOCK as i32 {
-        let y0 = start[1] + (by * BLOCK as i32) as f32;
-        let (mut left, mut all) = (in_columns, 0);
-        if wide {
-            let (some, whole) = edges.row(simd, by);
-            left &= some & reach.before(simd, &depth, start[0], y0, tile.farthest(simd, by as usize));
-            all = whole;
+    let (reach, word) = (BlockReach::new::<SAMPLES>(&depth), u32x16::splat(simd, word));
+    let mut pen = Pen { edges, over_block, depth, reach, start: group.start(lane), word, seen: 0 };
+    let [x0, x1, y0, y1] = group.bounds(lane).map(|pixel| pixel / BLOCK as i32);
+    if x1 - x0 < 2 {
+        // Narrow: the one or two blocks of each row, in one loop whose end is easily foreseen.
+        let second = x1 - x0;
+        for i in 0..(y1 - y0 + 1) << second {
+            pen.block(simd, tile, [x0 + (i & second), y0 + (i >> second)], false);
         }
-        let y = lane_y + y0;
+        return pen.seen != 0;
+    }
+    let in_columns = columns([x0, x1]);
+    for by in y0..=y1 {
+        let (some, whole) = pen.edges.row(simd, by);
+        let mut left = in_columns & some & pen.before(simd, tile, by);
         while left != 0 {
             let bx = left.trailing_zeros() as i32;
             left &= left - 1;
-            let x0 = start[0] + (bx * BLOCK as i32) as f32;
-            let x = lane_x + x0;
-            let block = by as usize * BLOCKS + bx as usize;
-            let mut filled = true;
-            for (sample, place) in places::<SAMPLES>().into_iter().enumerate() {
-                let z = if SAMPLES == 1 {
-                    depth.at(simd, x, y)
-                } else {
-                    let [right, down] = place.map(|p| p as f32 / (1 << SUBPIXEL_BITS) as f32);
-                    depth.at(simd, x + right, y + down)
-                };
-                let at = block * SAMPLES + sample;
-                let before = tile.depth(simd, at);
-                let mut visible = z.simd_lt(before);
-                if all >> bx & 1 == 0 {
-                    visible &= edges.inside(simd, &over_block, sample, [bx, by]);
-                }
-                let bits = visible.to_bitmask();
-                filled &= bits == 0xffff;
-                if bits != 0 {
-                    seen = true;
-                    tile.set_depth(at, visible.select(z, before));
-                    tile.set_word(at, visible.select(word, tile.word(simd, at)));
-                }
-            }
-            if filled {
-                tile.set_farthest(block, reach.farthest(&depth, x0, y0));
-            }
+            pen.block(simd, tile, [bx, by], whole >> bx & 1 != 0);
         }
     }
-    seen
+    pen.seen != 0
+}
+
+/// A triangle about to be written.
+struct Pen<S: Simd, const SAMPLES: usize> {
+    edges: Edges<SAMPLES>,
+    over_block: [i32x16<S>; 3],
+    depth: Plane,
+    reach: BlockReach,
+    /// See [`Owner::start`].
+    start: [f32; 2],
+    word: u32x16<S>,
+    /// The lanes in which it was the nearest, of all blocks together.
+    seen: u64,
+}
+
+impl<S: Simd, const SAMPLES: usize> Pen<S, SAMPLES> {
+    /// Where the first pixel of a block is, from the triangle's first corner, in pixels.
+    #[inline(always)]
+    fn place(&self, block: [i32; 2]) -> [f32; 2] {
+        two!(k => self.start[k] + (block[k] * BLOCK as i32) as f32)
+    }
+
+    /// The blocks of row `by` of which a place may lie in front of what is there, a bit for each.
+    #[inline(always)]
+    fn before(&self, simd: S, tile: &Tile, by: i32) -> u32 {
+        let [x, y] = self.place([0, by]);
+        self.reach.before(simd, &self.depth, x, y, tile.farthest(simd, by as usize))
+    }
+
+    /// Writes into a block; `whole` if all of it is known to be inside.
+    #[inline(always)]
+    fn block(&mut self, simd: S, tile: &mut Tile, [bx, by]: [i32; 2], whole: bool) {
+        let [x0, y0] = self.place([bx, by]);
+        let [lane_x, lane_y] = pixels(simd);
+        let [x, y] = [lane_x + x0, lane_y + y0];
+        let block = by as usize * BLOCKS + bx as usize;
+        let mut filled = 0xffff;
+        for (sample, place) in places::<SAMPLES>().into_iter().enumerate() {
+            let z = if SAMPLES == 1 {
+                self.depth.at(simd, x, y)
+            } else {
+                let [right, down] = place.map(|p| p as f32 / (1 << SUBPIXEL_BITS) as f32);
+                self.depth.at(simd, x + right, y + down)
+            };
+            let at = block * SAMPLES + sample;
+            let before = tile.depth(simd, at);
+            let mut visible = z.simd_lt(before);
+            if !whole {
+                visible &= self.edges.inside(simd, &self.over_block, sample, [bx, by]);
+            }
+            let bits = visible.to_bitmask();
+            (self.seen, filled) = (self.seen | bits, filled & bits);
+            // Written even if nothing changes: that is cheaper than to foresee it.
+            tile.set_depth(at, visible.select(z, before));
+            tile.set_word(at, visible.select(self.word, tile.word(simd, at)));
+        }
+        if filled == 0xffff {
+            tile.set_farthest(block, self.reach.farthest(&self.depth, x0, y0));
+        }
+    }
 }
 
 /// How far depth reaches within a block from the centre of its first pixel: down and up.

@@ -9,11 +9,11 @@ use fearless_simd::{Simd, f32x16, u32x16};
 use glam::Vec3;
 
 use super::glossy::{Answer, Lit};
-use super::{Finish, mean};
+use super::{Fetched, Finish, mean};
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
-use crate::raster::tile::texture::{Footprint, Footprints, Look, Texture};
+use crate::raster::tile::texture::{Footprints, Look, Texture};
 use crate::simd::{Vec3x16, cross, dot, gather, scale, splat, splat3, three};
 
 /// Texture coordinates and 1/w, the way to the eye, normal, tangent, sign of the bitangent; up to whole vectors.
@@ -69,15 +69,29 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
         }
     }
 
+    type Fetched<S: Simd> = Fetched<S>;
+
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> Fetched<S> {
         let mut footprints = Footprints::new(simd);
+        for i in 0..block.parts() {
+            let part = block.part(simd, i);
+            footprints.add(simd, &part.set_up.planes, &part, self.with_levels);
+        }
+        let map = match &self.relief {
+            Relief::Tangent(texture, look) | Relief::Object(texture, look) => Some((*texture, look)),
+            Relief::Smooth | Relief::Indexed(..) => None,
+        };
+        Fetched::new(simd, footprints.get(), map)
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>, fetched: &Fetched<S>) -> u32x16<S> {
         let [mut to_eye, mut smooth, mut tangent] = [splat3(simd, [0.0; 3]); 3];
         let (mut sign, mut side, mut behind) = (splat(simd, 1.0), splat(simd, 1.0), false);
         for i in 0..block.parts() {
             let part = block.part(simd, i);
             let SetUp { planes, sign: of_part, back_facing } = part.set_up;
-            footprints.add(simd, planes, &part, self.with_levels);
             planes.enter(simd, &part, EYE, &mut to_eye);
             planes.enter(simd, &part, NORMAL, &mut smooth);
             planes.enter(simd, &part, TANGENT, &mut tangent);
@@ -87,37 +101,30 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
                 side = part.lanes.select(splat(simd, -1.0), side);
             }
         }
-        let at = footprints.get();
-        let normal = self.normal(simd, &at, &Frame { smooth, tangent, sign });
+        let at = &fetched.at;
+        let normal = self.normal(simd, fetched, &Frame { smooth, tangent, sign });
         let normal = if behind { scale(normal, side) } else { normal };
         let [diffuse, specular] = self.answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w });
-        self.finish.encode(simd, diffuse, specular, &at)
+        self.finish.encode(simd, diffuse, specular, at)
     }
 }
 
 impl<A> Exact<'_, A> {
     /// The normal under each pixel, not normalised.
     #[inline(always)]
-    fn normal<S: Simd>(&self, simd: S, at: &Footprint<S>, frame: &Frame<S>) -> Vec3x16<S> {
+    fn normal<S: Simd>(&self, simd: S, fetched: &Fetched<S>, frame: &Frame<S>) -> Vec3x16<S> {
         let smooth = frame.smooth;
         let sum = match &self.relief {
             Relief::Smooth => smooth,
             Relief::Tangent(texture, look) | Relief::Object(texture, look) => {
-                let n = mean(
-                    simd,
-                    texture,
-                    look,
-                    at,
-                    #[inline(always)]
-                    |texel| texture.vector(simd, texel, true),
-                );
-                if matches!(self.relief, Relief::Tangent(..)) { frame.bend(at.w, n) } else { n }
+                let n = fetched.normal(simd, texture, look);
+                if matches!(self.relief, Relief::Tangent(..)) { frame.bend(fetched.at.w, n) } else { n }
             }
             Relief::Indexed(texture, look, normals) => mean(
                 simd,
                 texture,
                 look,
-                at,
+                &fetched.at,
                 #[inline(always)]
                 |texel| {
                     let entry = texture.index(simd, texel) * 3;

@@ -18,6 +18,7 @@ use fearless_simd::{Simd, f32x16, u32x16};
 use super::buffer::pack;
 use super::texture::{Footprint, Look, Texture};
 use crate::light::Blend;
+use crate::raster::texture::TextureFilter;
 use crate::simd::{Vec3x16, srgb_code, three};
 
 /// A base colour, as lanes read it.
@@ -78,6 +79,40 @@ impl Finish<'_> {
 #[inline(always)]
 pub(super) fn encode<S: Simd>(simd: S, light: Vec3x16<S>) -> u32x16<S> {
     pack(simd, three!(k => srgb_code(simd, light[k])))
+}
+
+/// Where a block's pixels look, and what is under them where that is a single texel.
+#[derive(Clone, Copy)]
+pub(super) struct Fetched<S: Simd> {
+    at: Footprint<S>,
+    nearest: [u32x16<S>; 2],
+}
+
+impl<S: Simd> Fetched<S> {
+    #[inline(always)]
+    fn new(simd: S, at: Footprint<S>, map: Option<(&Texture, &Look)>) -> Self {
+        let nearest = match map {
+            Some((texture, look)) if look.filter == TextureFilter::Nearest => texture.fetch_nearest(simd, look, &at),
+            _ => [u32x16::splat(simd, 0); 2],
+        };
+        Self { at, nearest }
+    }
+
+    /// What a map of vectors says, filtered.
+    #[inline(always)]
+    fn normal(&self, simd: S, texture: &Texture, look: &Look) -> Vec3x16<S> {
+        if look.filter == TextureFilter::Nearest {
+            return texture.vector_of(simd, self.nearest, true);
+        }
+        mean(
+            simd,
+            texture,
+            look,
+            &self.at,
+            #[inline(always)]
+            |texel| texture.vector(simd, texel, true),
+        )
+    }
 }
 
 /// The weighted mean of what a map says under each pixel.

@@ -63,7 +63,11 @@ impl Shader<1> for Pixelwise<'_> {
         }
     }
 
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, Weights>) -> u32x16<S> {
+    type Fetched<S: Simd> = ();
+
+    fn fetch<S: Simd>(&self, _: S, _: &Block<'_, S, Weights>) {}
+
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, Weights>, (): &()) -> u32x16<S> {
         let mut colors = [0; 16];
         for i in 0..block.parts() {
             let part = block.part(simd, i);

@@ -76,8 +76,11 @@ impl Shader<ATTRIBUTES> for Nearest<'_> {
         (seen.sides.planes(seen.attributes), seen.triangle.back_facing())
     }
 
+    /// The entries.
+    type Fetched<S: Simd> = u32x16<S>;
+
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
         let (at, behind) = surface(simd, block, &self.look);
         let mut entry = u32x16::splat(simd, 0);
         self.indices.taps(
@@ -87,8 +90,12 @@ impl Shader<ATTRIBUTES> for Nearest<'_> {
             #[inline(always)]
             |texel, _| entry = self.indices.index(simd, texel),
         );
-        entry = behind.select(entry + self.entries, entry);
-        gather(simd, &self.colors, entry)
+        behind.select(entry + self.entries, entry)
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&self, simd: S, _: &Block<'_, S, SetUp>, entry: &u32x16<S>) -> u32x16<S> {
+        gather(simd, &self.colors, *entry)
     }
 }
 
@@ -130,9 +137,20 @@ impl Shader<ATTRIBUTES> for Filtered<'_> {
         (seen.sides.planes(seen.attributes), seen.triangle.back_facing())
     }
 
+    type Fetched<S: Simd> = (Footprint<S>, mask32x16<S>);
+
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
-        let (at, behind) = surface(simd, block, &self.look);
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> (Footprint<S>, mask32x16<S>) {
+        surface(simd, block, &self.look)
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(
+        &self,
+        simd: S,
+        _: &Block<'_, S, SetUp>,
+        &(at, behind): &(Footprint<S>, mask32x16<S>),
+    ) -> u32x16<S> {
         let mut sums = [f32x16::splat(simd, 0.0); 6];
         let shades = &self.shades;
         // Where the table of a pixel begins.
@@ -172,14 +190,20 @@ impl Shader<ATTRIBUTES> for Static<'_> {
         (seen.sides.planes(seen.attributes), false)
     }
 
+    type Fetched<S: Simd> = Footprint<S>;
+
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
-        let (at, _) = surface(simd, block, &self.look);
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> Footprint<S> {
+        surface(simd, block, &self.look).0
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&self, simd: S, _: &Block<'_, S, SetUp>, at: &Footprint<S>) -> u32x16<S> {
         let mut sums = [f32x16::splat(simd, 0.0); 6];
         self.shades.taps(
             simd,
             &self.look,
-            &at,
+            at,
             #[inline(always)]
             |texel, weight| {
                 let shade = self.shades.shade(simd, texel);
@@ -188,6 +212,6 @@ impl Shader<ATTRIBUTES> for Static<'_> {
                 }
             },
         );
-        self.finish.encode(simd, three!(k => sums[k]), three!(k => sums[k + 3]), &at)
+        self.finish.encode(simd, three!(k => sums[k]), three!(k => sums[k + 3]), at)
     }
 }

@@ -5,7 +5,7 @@ use fearless_simd::{Simd, f32x16, u32x16};
 use glam::Vec3;
 
 use super::glossy::{Products, Terms};
-use super::{Finish, mean};
+use super::{Fetched, Finish};
 use crate::raster::reference::Interpolated;
 use crate::raster::tile::batch::{Block, Part, Seen, Shader};
 use crate::raster::tile::front::Vertex;
@@ -55,26 +55,29 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
         }
     }
 
+    type Fetched<S: Simd> = Fetched<S>;
+
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
-        let (mut footprints, mut side) = (Footprints::new(simd), splat(simd, 1.0));
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> Fetched<S> {
+        let mut footprints = Footprints::new(simd);
         for i in 0..block.parts() {
             let part = block.part(simd, i);
             footprints.add(simd, &part.set_up.planes, &part, self.with_levels);
+        }
+        Fetched::new(simd, footprints.get(), self.relief.as_ref().map(|(texture, look)| (*texture, look)))
+    }
+
+    #[inline(always)]
+    fn shade<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>, fetched: &Fetched<S>) -> u32x16<S> {
+        let mut side = splat(simd, 1.0);
+        for i in 0..block.parts() {
+            let part = block.part(simd, i);
             side = part.lanes.select(splat(simd, part.set_up.side), side);
         }
-        let at = footprints.get();
         let normal = match self.relief {
             None => [splat(simd, 0.0), splat(simd, 0.0), side],
             Some((texture, look)) => {
-                let n = mean(
-                    simd,
-                    texture,
-                    &look,
-                    &at,
-                    #[inline(always)]
-                    |texel| texture.vector(simd, texel, true),
-                );
+                let n = fetched.normal(simd, texture, &look);
                 let length = rsqrt(simd, dot(n, n).max(splat(simd, 1e-20))) * side;
                 three!(k => n[k] * length)
             }
@@ -100,7 +103,7 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
             }
             self.terms.add(simd, light, &Products { light: light_cosine, half: half_cosine }, &mut sum);
         }
-        self.finish.encode(simd, sum[0], sum[1], &at)
+        self.finish.encode(simd, sum[0], sum[1], &fetched.at)
     }
 }
 
