@@ -10,6 +10,7 @@ mod height;
 mod inputs;
 mod light;
 mod machine;
+mod models;
 mod quantize;
 mod raster;
 mod relight;
@@ -32,7 +33,7 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 9] = [
+const GROUPS: [Group; 10] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",
@@ -46,6 +47,7 @@ const GROUPS: [Group; 9] = [
     },
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "light", what: "a table lit sixteen normals at a time against one at a time", run: light::run },
+    Group { name: "models", what: "a table's light against a frame's and against every pixel's", run: models::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
     Group { name: "raster", what: "frames against lavapipe, SwiftShader and euc", run: raster::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },

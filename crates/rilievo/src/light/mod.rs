@@ -4,6 +4,7 @@
 //! normals at a time (`lanes`), held against the definition in a test; so the methods can only differ by what they feed it.
 
 mod environment;
+mod lane_blend;
 mod lane_environment;
 mod lane_facet;
 #[cfg(test)]

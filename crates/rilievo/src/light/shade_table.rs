@@ -10,7 +10,7 @@ use crate::indexed::NormalTable;
 use crate::light::scalar::luminance;
 use crate::light::{Blend, Lighting, Material, Prepared, Shade};
 use crate::normal::{Normal, Space};
-use crate::simd::{LANES, splat3, three};
+use crate::simd::{LANES, splat3, srgb_code, three, two};
 
 /// One [`Shade`] per entry of a [`NormalTable`].
 ///
@@ -55,8 +55,12 @@ impl ShadeTable {
     }
 
     /// The colours of a white surface, encoded: what a palette holds.
+    ///
+    /// - **Determinism:** class C: a colour within 0.06 codes of the border between two may be either.
     pub fn to_srgb(&self, blend: Blend) -> Vec<Rgba8> {
-        self.colors(blend).map(LinearRgb::to_srgb).collect()
+        let mut colors = vec![Rgba8::default(); self.entries.len()];
+        dispatch!(Level::new(), simd => encode(simd, &self.entries, blend, &mut colors));
+        colors
     }
 
     /// Entries of the kind *colour*: what is shown as it is, in linear light (Tarini et al. 2000, § 5.1 and § 7.3): the colours of
@@ -110,6 +114,31 @@ fn light_span<S: Simd, Sp: Space>(
         for (lane, shade) in shades.iter_mut().enumerate() {
             let diffuse = LinearRgb::new(out[0][lane], out[1][lane], out[2][lane]);
             *shade = Shade { diffuse, specular: LinearRgb::new(out[3][lane], out[4][lane], out[5][lane]) };
+        }
+    }
+}
+
+/// Encodes the colours of a white surface, sixteen at a time.
+#[inline(always)]
+fn encode<S: Simd>(simd: S, entries: &[Shade], blend: Blend, colors: &mut [Rgba8]) {
+    let white = f32x16::splat(simd, 1.0);
+    for (entries, colors) in entries.chunks(LANES).zip(colors.chunks_mut(LANES)) {
+        let mut planes = [[0.0f32; LANES]; 6];
+        for (lane, Shade { diffuse: d, specular: s }) in entries.iter().enumerate() {
+            for (plane, value) in planes.iter_mut().zip([d.r, d.g, d.b, s.r, s.g, s.b]) {
+                plane[lane] = value;
+            }
+        }
+        let codes = three!(k => {
+            let [diffuse, specular] = two!(i => f32x16::simd_from(simd, planes[k + 3 * i]));
+            srgb_code(simd, blend.over(simd, diffuse, specular, white))
+        });
+        let mut lanes = [[0u32; LANES]; 3];
+        for (lanes, codes) in lanes.iter_mut().zip(codes) {
+            codes.store_slice(lanes);
+        }
+        for (lane, color) in colors.iter_mut().enumerate() {
+            *color = Rgba8::new(lanes[0][lane] as u8, lanes[1][lane] as u8, lanes[2][lane] as u8, 255);
         }
     }
 }

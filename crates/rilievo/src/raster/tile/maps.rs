@@ -17,6 +17,7 @@ pub(super) enum Map<'a> {
     Object(&'a MipChain<Normal<ObjectSpace>>),
     Colors(&'a MipChain<LinearRgb>),
     Shades(&'a MipChain<Shade>),
+    Materials(&'a MipChain<u8>),
 }
 
 impl Map<'_> {
@@ -27,6 +28,7 @@ impl Map<'_> {
             (Map::Object(a), Map::Object(b)) => std::ptr::eq(*a, *b),
             (Map::Colors(a), Map::Colors(b)) => std::ptr::eq(*a, *b),
             (Map::Shades(a), Map::Shades(b)) => std::ptr::eq(*a, *b),
+            (Map::Materials(a), Map::Materials(b)) => std::ptr::eq(*a, *b),
             _ => false,
         }
     }
@@ -38,6 +40,7 @@ impl Map<'_> {
             Map::Object(chain) => Texture::of_normals(chain, filter),
             Map::Colors(chain) => Texture::of_colors(chain, filter),
             Map::Shades(chain) => Texture::of_shades(chain, filter),
+            Map::Materials(chain) => Texture::of_materials(chain, filter),
         }
     }
 }
@@ -51,8 +54,8 @@ pub(super) struct Maps<'a> {
 impl<'a> Maps<'a> {
     /// Reads the maps of an object that were not read yet.
     pub(super) fn read(&mut self, object: &Object<'a>, filter: TextureFilter) {
-        for map in detail_map(&object.detail).into_iter().chain(object.base_color.map(|base| Map::Colors(base.levels)))
-        {
+        let base = object.base_color.map(|base| Map::Colors(base.levels));
+        for map in [detail_map(&object.detail), materials_map(&object.detail), base].into_iter().flatten() {
             if self.find(&map, filter).is_none() {
                 self.known.push((map, filter, map.read(filter)));
             }
@@ -62,6 +65,14 @@ impl<'a> Maps<'a> {
     /// A map that was read.
     pub(super) fn find(&self, map: &Map<'_>, filter: TextureFilter) -> Option<&Texture> {
         self.known.iter().find(|(known, by, _)| *by == filter && known.is(map)).map(|(.., texture)| texture)
+    }
+}
+
+/// The map of the materials that go with an object's normals.
+pub(super) fn materials_map<'a>(detail: &Detail<'a>) -> Option<Map<'a>> {
+    match *detail {
+        Detail::Tangent { materials, .. } | Detail::Object { materials, .. } => materials.map(Map::Materials),
+        Detail::Smooth | Detail::Indexed(_) | Detail::Baked(_) => None,
     }
 }
 

@@ -33,16 +33,17 @@ use glam::Vec2;
 use self::batch::{Batch, Shaded};
 use self::buffer::{TILE, Tile, word};
 use self::front::{Front, Tiles};
-use self::maps::{Map, Maps, detail_map};
+use self::maps::{Map, Maps, detail_map, materials_map};
 use self::shade::{
-    Base, Exact, Filtered, Finish, General, Glossy, Nearest, Pixelwise, Relief, Shades, Static, Terms, Vectors,
+    Base, Exact, Filtered, Finish, General, Glossy, Nearest, NormalTexture, Pixelwise, Relief, Shades, Static, Terms,
+    Vectors,
 };
 use self::texture::Look;
 use self::visible::Owners;
 use crate::color::{LinearRgb, Picture, Rgba8};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::light::Prepared;
+use crate::light::{Material, Prepared};
 use crate::par;
 use crate::raster::frame::{Shading, shading};
 use crate::raster::project::{MAX_PICTURE_SIDE, Projection};
@@ -199,6 +200,9 @@ impl<'f> Place<'f, '_> {
     }
 }
 
+/// Lanes look a block of pixels up once for each material; where there are more, pixels are shaded one by one.
+const MOST_MATERIALS: usize = 16;
+
 /// The shader of an object: one with lanes where there is one, the reference pixel by pixel otherwise.
 fn choose<'s>(
     scene: &'s Scene<'_>,
@@ -214,6 +218,8 @@ fn choose<'s>(
     let finish = Finish { base, blend: object.blend };
     let with_levels = options.filter == TextureFilter::Trilinear;
     let shading = shading(scene, object, options.method)?;
+    let material_numbers = materials_map(&object.detail).map(|map| read(&map));
+    let normals = |texture, look| NormalTexture { texture, look, materials: material_numbers };
     let map = detail_map(&object.detail).map(|map| read(&map));
     match (shading, map) {
         (Shading::Table(table), Some(indices)) => {
@@ -226,45 +232,57 @@ fn choose<'s>(
         }
         (Shading::Exact(exact), map) => {
             let relief = match (object.detail, map) {
-                (Detail::Smooth, _) => Some(Relief::Smooth),
-                (Detail::Tangent { repeat, materials: None, .. }, Some(t)) => Some(Relief::Tangent(t, look(repeat))),
-                (Detail::Object { materials: None, .. }, Some(t)) => Some(Relief::Object(t, look(Vec2::ONE))),
-                (Detail::Indexed(map), Some(t)) if map.table().spans().len() == 1 => {
-                    let words = map.table().normals().iter().flat_map(|n| n.vec().to_array().map(f32::to_bits));
-                    Some(Relief::Indexed(t, look(Vec2::ONE), words.collect()))
+                (Detail::Smooth, _) => Some((Relief::Smooth, &object.materials[..1])),
+                (Detail::Tangent { repeat, .. }, Some(t)) => {
+                    Some((Relief::Tangent(normals(t, look(repeat))), used(object)))
+                }
+                (Detail::Object { .. }, Some(t)) => Some((Relief::Object(normals(t, look(Vec2::ONE))), used(object))),
+                (Detail::Indexed(map), Some(t)) => {
+                    let table = map.table();
+                    let words = table.normals().iter().zip(0..=u16::MAX).flat_map(|(normal, i)| {
+                        let [x, y, z] = normal.vec().to_array().map(f32::to_bits);
+                        [x, y, z, u32::from(table.material_of(i))]
+                    });
+                    Some((Relief::Indexed(t, look(Vec2::ONE), words.collect()), object.materials))
                 }
                 _ => None,
             };
-            let number = match object.detail {
-                Detail::Indexed(map) => map.table().spans().first().map_or(0, |span| usize::from(span.material)),
-                _ => 0,
+            let relief = relief.filter(|(_, materials)| materials.len() <= MOST_MATERIALS);
+            let Some((relief, materials)) = relief else {
+                return Ok(pixelwise(Shading::Exact(exact), place, options, skipped));
             };
-            let Some(relief) = relief else { return Ok(pixelwise(Shading::Exact(exact), place, options, skipped)) };
-            let (material, lighting, eye) = (&object.materials[number], exact.lighting(), exact.eye());
-            if let Some(answer) = Glossy::new(material, lighting, eye) {
-                return Ok(place.with(Exact { relief, answer, eye, finish, with_levels }, skipped));
+            let (lighting, eye) = (exact.lighting(), exact.eye());
+            if let Some(answers) = materials.iter().map(|m| Glossy::new(m, lighting, eye)).collect() {
+                return Ok(place.with(Exact { relief, answers, eye, finish, with_levels }, skipped));
             }
-            let answer = General { material: Prepared::new(material, lighting), eye };
-            Ok(place.with(Exact { relief, answer, eye, finish, with_levels }, skipped))
+            let answer = |material| General { material: Prepared::new(material, lighting), eye };
+            let answers = materials.iter().map(answer).collect();
+            Ok(place.with(Exact { relief, answers, eye, finish, with_levels }, skipped))
         }
         (Shading::Interpolated(interpolated), map) => {
             let relief = match (object.detail, map) {
-                (Detail::Smooth, _) => Some(None),
-                (Detail::Tangent { repeat, materials: None, .. }, Some(t)) => Some(Some((t, look(repeat)))),
+                (Detail::Tangent { repeat, .. }, Some(t)) => Some(normals(t, look(repeat))),
                 _ => None,
             };
-            match (relief, Terms::new(&object.materials[0], interpolated.lighting())) {
-                (Some(relief), Some(terms)) => {
+            let materials = if relief.is_some() { used(object) } else { &object.materials[..1] };
+            let terms: Option<Vec<Terms>> = materials.iter().map(|m| Terms::new(m, interpolated.lighting())).collect();
+            match terms.filter(|terms| terms.len() <= MOST_MATERIALS) {
+                Some(terms) => {
                     let vertices = interpolated.vertices();
                     let (mesh, shading) = (object.mesh, interpolated);
                     Ok(place.with(Vectors { relief, shading, vertices, mesh, terms, finish, with_levels }, skipped))
                 }
-                _ => Ok(pixelwise(Shading::Interpolated(interpolated), place, options, skipped)),
+                None => Ok(pixelwise(Shading::Interpolated(interpolated), place, options, skipped)),
             }
         }
         (Shading::Static(_), Some(shades)) => Ok(place.with(Static { shades, look: look(Vec2::ONE), finish }, skipped)),
         (shading, _) => Ok(pixelwise(shading, place, options, skipped)),
     }
+}
+
+/// The materials that the texels of an object's map may name.
+fn used<'a>(object: &Object<'a>) -> &'a [Material] {
+    if materials_map(&object.detail).is_some() { object.materials } else { &object.materials[..1] }
 }
 
 fn pixelwise<'s>(

@@ -92,6 +92,13 @@ impl Texture {
         }
     }
 
+    /// Of material numbers, read as indices are.
+    pub(super) fn of_materials(chain: &MipChain<u8>, filter: TextureFilter) -> Self {
+        let levels = levels(chain, filter).iter().map(|level| level.map(|&m| u16::from(m))).collect();
+        let chain = MipChain::from_levels(levels).expect("invariant: sizes are those of a chain");
+        Self::of_indices(&chain, filter)
+    }
+
     /// Of normals: 8-bit codes where they are exact and no smaller level is looked at, 16 bits a component elsewhere.
     pub(super) fn of_normals<S: Space>(chain: &MipChain<Normal<S>>, filter: TextureFilter) -> Self {
         let levels_in_use = levels(chain, filter);

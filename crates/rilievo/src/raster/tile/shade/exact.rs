@@ -9,7 +9,7 @@ use fearless_simd::{Simd, f32x16, u32x16};
 use glam::Vec3;
 
 use super::glossy::{Answer, Lit};
-use super::{Fetched, Finish, mean};
+use super::{Fetched, Finish, Grain, NormalTexture, add_share, of_material};
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
@@ -26,16 +26,17 @@ const SIGN: usize = 12;
 /// Where a pixel's normal comes from.
 pub(in crate::raster::tile) enum Relief<'a> {
     Smooth,
-    Tangent(&'a Texture, Look),
-    Object(&'a Texture, Look),
-    /// Indices, and x, y, z of each entry.
+    Tangent(NormalTexture<'a>),
+    Object(NormalTexture<'a>),
+    /// Indices, and x, y, z and the material of each entry.
     Indexed(&'a Texture, Look, Vec<u32>),
 }
 
-/// One material, whose light is evaluated by the pixel.
+/// Materials whose light is evaluated by the pixel.
 pub(in crate::raster::tile) struct Exact<'a, A> {
     pub(in crate::raster::tile) relief: Relief<'a>,
-    pub(in crate::raster::tile) answer: A,
+    /// Of each material that the map may name.
+    pub(in crate::raster::tile) answers: Vec<A>,
     pub(in crate::raster::tile) eye: Vec3,
     pub(in crate::raster::tile) finish: Finish<'a>,
     /// Whether maps have mip levels.
@@ -79,7 +80,7 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
             footprints.add(simd, &part.set_up.planes, &part, self.with_levels);
         }
         let map = match &self.relief {
-            Relief::Tangent(texture, look) | Relief::Object(texture, look) => Some((*texture, look)),
+            Relief::Tangent(map) | Relief::Object(map) => Some(map),
             Relief::Smooth | Relief::Indexed(..) => None,
         };
         Fetched::new(simd, footprints.get(), map)
@@ -102,39 +103,58 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
             }
         }
         let at = &fetched.at;
-        let normal = self.normal(simd, fetched, &Frame { smooth, tangent, sign });
-        let normal = if behind { scale(normal, side) } else { normal };
-        let [diffuse, specular] = self.answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w });
-        self.finish.encode(simd, diffuse, specular, at)
+        let frame = Frame { smooth, tangent, sign };
+        let mut sum = [splat3(simd, [0.0; 3]); 2];
+        for (material, answer) in self.answers.iter().enumerate() {
+            let (normal, share) = self.normal(simd, fetched, &frame, material as u32);
+            if !share.simd_gt(splat(simd, 0.0)).any_true() {
+                continue;
+            }
+            let normal = if behind { scale(normal, side) } else { normal };
+            add_share(&mut sum, answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w }), share);
+        }
+        self.finish.encode(simd, sum[0], sum[1], at)
     }
 }
 
 impl<A> Exact<'_, A> {
-    /// The normal under each pixel, not normalised.
+    /// The normal of a material under each pixel, not normalised, and the material's share of it.
     #[inline(always)]
-    fn normal<S: Simd>(&self, simd: S, fetched: &Fetched<S>, frame: &Frame<S>) -> Vec3x16<S> {
+    fn normal<S: Simd>(
+        &self,
+        simd: S,
+        fetched: &Fetched<S>,
+        frame: &Frame<S>,
+        material: u32,
+    ) -> (Vec3x16<S>, f32x16<S>) {
         let smooth = frame.smooth;
-        let sum = match &self.relief {
-            Relief::Smooth => smooth,
-            Relief::Tangent(texture, look) | Relief::Object(texture, look) => {
-                let n = fetched.normal(simd, texture, look);
-                if matches!(self.relief, Relief::Tangent(..)) { frame.bend(fetched.at.w, n) } else { n }
+        let (sum, share) = match &self.relief {
+            Relief::Smooth => (smooth, splat(simd, 1.0)),
+            Relief::Tangent(map) | Relief::Object(map) => {
+                let Grain { sum, share } = fetched.grain(simd, map, material);
+                let tangent = matches!(self.relief, Relief::Tangent(_));
+                (if tangent { frame.bend(fetched.at.w, sum) } else { sum }, share)
             }
-            Relief::Indexed(texture, look, normals) => mean(
-                simd,
-                texture,
-                look,
-                &fetched.at,
-                #[inline(always)]
-                |texel| {
-                    let entry = texture.index(simd, texel) * 3;
-                    three!(k => gather(simd, normals, entry + k as u32).bitcast::<f32x16<S>>())
-                },
-            ),
+            Relief::Indexed(texture, look, entries) => {
+                let mut grain = Grain::none(simd);
+                texture.taps(
+                    simd,
+                    look,
+                    &fetched.at,
+                    #[inline(always)]
+                    |texel, weight| {
+                        let entry = texture.index(simd, texel) << 2;
+                        let normal = three!(k => gather(simd, entries, entry + k as u32).bitcast::<f32x16<S>>());
+                        let found = gather(simd, entries, entry + 3);
+                        grain.add(normal, of_material(simd, found, material, weight));
+                    },
+                );
+                (grain.sum, grain.share)
+            }
         };
         // Where normals cancel, the mesh's own.
         let gone = dot(sum, sum).simd_lt(splat(simd, 1e-20));
-        if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum }
+        (if gone.any_true() { three!(k => gone.select(smooth[k], sum[k])) } else { sum }, share)
     }
 }
 

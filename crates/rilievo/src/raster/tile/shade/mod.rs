@@ -19,7 +19,7 @@ use super::buffer::pack;
 use super::texture::{Footprint, Look, Texture};
 use crate::light::Blend;
 use crate::raster::texture::TextureFilter;
-use crate::simd::{Vec3x16, srgb_code, three};
+use crate::simd::{Vec3x16, splat, splat3, srgb_code, three};
 
 /// A base colour, as lanes read it.
 #[derive(Debug, Clone, Copy)]
@@ -56,22 +56,7 @@ impl Finish<'_> {
                 |texel| base.texture.vector(simd, texel, false),
             ),
         };
-        encode(simd, three!(k => self.over(simd, diffuse[k], specular[k], base[k])))
-    }
-
-    /// One component, as [`crate::light::Shade::over`] has it.
-    #[inline(always)]
-    fn over<S: Simd>(&self, simd: S, diffuse: f32x16<S>, specular: f32x16<S>, base: f32x16<S>) -> f32x16<S> {
-        let zero = f32x16::splat(simd, 0.0);
-        match self.blend {
-            Blend::Exact => {
-                let under = diffuse * base;
-                (1.0 - under).max(zero).mul_add(specular, under)
-            }
-            Blend::Approximate => (1.0 - base).max(zero).mul_add(specular, diffuse * base),
-            Blend::Material => diffuse + specular,
-            Blend::Add => diffuse.mul_add(base, specular),
-        }
+        encode(simd, three!(k => self.blend.over(simd, diffuse[k], specular[k], base[k])))
     }
 }
 
@@ -79,6 +64,24 @@ impl Finish<'_> {
 #[inline(always)]
 pub(super) fn encode<S: Simd>(simd: S, light: Vec3x16<S>) -> u32x16<S> {
     pack(simd, three!(k => srgb_code(simd, light[k])))
+}
+
+/// A map of normals, as lanes read it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NormalTexture<'a> {
+    pub(super) texture: &'a Texture,
+    pub(super) look: Look,
+    /// Which material each texel has; without it, all have the first.
+    pub(super) materials: Option<&'a Texture>,
+}
+
+/// The normals of one material under each pixel.
+#[derive(Clone, Copy)]
+pub(super) struct Grain<S: Simd> {
+    /// Their weighted sum.
+    sum: Vec3x16<S>,
+    /// Their share of the pixel.
+    share: f32x16<S>,
 }
 
 /// Where a block's pixels look, and what is under them where that is a single texel.
@@ -90,28 +93,70 @@ pub(super) struct Fetched<S: Simd> {
 
 impl<S: Simd> Fetched<S> {
     #[inline(always)]
-    fn new(simd: S, at: Footprint<S>, map: Option<(&Texture, &Look)>) -> Self {
+    fn new(simd: S, at: Footprint<S>, map: Option<&NormalTexture<'_>>) -> Self {
         let nearest = match map {
-            Some((texture, look)) if look.filter == TextureFilter::Nearest => texture.fetch_nearest(simd, look, &at),
+            Some(map) if map.is_plain() => map.texture.fetch_nearest(simd, &map.look, &at),
             _ => [u32x16::splat(simd, 0); 2],
         };
         Self { at, nearest }
     }
 
-    /// What a map of vectors says, filtered.
+    /// What a map says of a material, filtered.
     #[inline(always)]
-    fn normal(&self, simd: S, texture: &Texture, look: &Look) -> Vec3x16<S> {
-        if look.filter == TextureFilter::Nearest {
-            return texture.vector_of(simd, self.nearest, true);
+    fn grain(&self, simd: S, map: &NormalTexture<'_>, material: u32) -> Grain<S> {
+        if map.is_plain() {
+            return Grain { sum: map.texture.vector_of(simd, self.nearest, true), share: splat(simd, 1.0) };
         }
-        mean(
+        let mut grain = Grain::none(simd);
+        map.texture.taps(
             simd,
-            texture,
-            look,
+            &map.look,
             &self.at,
             #[inline(always)]
-            |texel| texture.vector(simd, texel, true),
-        )
+            |texel, weight| {
+                let weight = match map.materials {
+                    Some(materials) => of_material(simd, materials.index(simd, texel), material, weight),
+                    None => weight,
+                };
+                grain.add(map.texture.vector(simd, texel, true), weight);
+            },
+        );
+        grain
+    }
+}
+
+impl NormalTexture<'_> {
+    /// Whether a pixel sees one texel, and all texels have one material.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.look.filter == TextureFilter::Nearest && self.materials.is_none()
+    }
+}
+
+impl<S: Simd> Grain<S> {
+    #[inline(always)]
+    fn none(simd: S) -> Self {
+        Self { sum: splat3(simd, [0.0; 3]), share: splat(simd, 0.0) }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, normal: Vec3x16<S>, weight: f32x16<S>) {
+        self.sum = three!(k => normal[k].mul_add(weight, self.sum[k]));
+        self.share += weight;
+    }
+}
+
+/// `weight` where the material is this one.
+#[inline(always)]
+fn of_material<S: Simd>(simd: S, found: u32x16<S>, material: u32, weight: f32x16<S>) -> f32x16<S> {
+    found.simd_eq(u32x16::splat(simd, material)).select(weight, splat(simd, 0.0))
+}
+
+/// Adds a share of a shade, diffuse and specular.
+#[inline(always)]
+fn add_share<S: Simd>(sum: &mut [Vec3x16<S>; 2], shade: [Vec3x16<S>; 2], share: f32x16<S>) {
+    for (sum, shade) in sum.iter_mut().zip(shade) {
+        *sum = three!(k => shade[k].mul_add(share, sum[k]));
     }
 }
 

@@ -58,8 +58,8 @@ impl<'a> Nearest<'a> {
         back: Option<&ShadeTable>,
         blend: Blend,
     ) -> Self {
-        let both = front.entries().iter().chain(back.into_iter().flat_map(ShadeTable::entries));
-        let colors = both.map(|shade| word(shade.over(crate::LinearRgb::WHITE, blend).to_srgb())).collect();
+        let both = std::iter::once(front).chain(back).flat_map(|table| table.to_srgb(blend));
+        let colors = both.map(word).collect();
         Self { indices, look, colors, entries: front.entries().len() as u32 }
     }
 }

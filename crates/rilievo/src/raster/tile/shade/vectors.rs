@@ -5,26 +5,27 @@ use fearless_simd::{Simd, f32x16, u32x16};
 use glam::Vec3;
 
 use super::glossy::{Products, Terms};
-use super::{Fetched, Finish};
+use super::{Fetched, Finish, Grain, NormalTexture, add_share};
 use crate::raster::reference::Interpolated;
 use crate::raster::tile::batch::{Block, Part, Seen, Shader};
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
-use crate::raster::tile::texture::{Footprints, Look, Texture};
+use crate::raster::tile::texture::Footprints;
 use crate::raster::vectors::{Field, Linear, Quadratic, Rotated, Vertices};
-use crate::simd::{Vec3x16, dot, rsqrt, splat, three};
+use crate::simd::{Vec3x16, dot, rsqrt, scale, splat, splat3, three};
 
 /// Texture coordinates and 1/w.
 const ATTRIBUTES: usize = 3;
 
-/// One material, lit by interpolated vectors.
+/// Materials lit by interpolated vectors.
 pub(in crate::raster::tile) struct Vectors<'a> {
     /// The map of tangent-space normals; the mesh's own without it.
-    pub(in crate::raster::tile) relief: Option<(&'a Texture, Look)>,
+    pub(in crate::raster::tile) relief: Option<NormalTexture<'a>>,
     pub(in crate::raster::tile) shading: Interpolated<'a>,
     pub(in crate::raster::tile) vertices: Vertices,
     pub(in crate::raster::tile) mesh: &'a crate::surface::Mesh,
-    pub(in crate::raster::tile) terms: Terms,
+    /// Of each material that the map may name.
+    pub(in crate::raster::tile) terms: Vec<Terms>,
     pub(in crate::raster::tile) finish: Finish<'a>,
     /// Whether maps have mip levels.
     pub(in crate::raster::tile) with_levels: bool,
@@ -64,7 +65,7 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
             let part = block.part(simd, i);
             footprints.add(simd, &part.set_up.planes, &part, self.with_levels);
         }
-        Fetched::new(simd, footprints.get(), self.relief.as_ref().map(|(texture, look)| (*texture, look)))
+        Fetched::new(simd, footprints.get(), self.relief.as_ref())
     }
 
     #[inline(always)]
@@ -74,37 +75,49 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
             let part = block.part(simd, i);
             side = part.lanes.select(splat(simd, part.set_up.side), side);
         }
-        let normal = match self.relief {
-            None => [splat(simd, 0.0), splat(simd, 0.0), side],
-            Some((texture, look)) => {
-                let n = fetched.normal(simd, texture, &look);
-                let length = rsqrt(simd, dot(n, n).max(splat(simd, 1e-20))) * side;
-                three!(k => n[k] * length)
-            }
-        };
-        let mut sum = self.terms.start(simd);
-        for light in 0..self.terms.lights() {
-            let [mut light_cosine, mut half_cosine] = [splat(simd, 0.0); 2];
-            for i in 0..block.parts() {
-                let part = block.part(simd, i);
-                let Some(field) = part.set_up.fields.get(light) else { continue };
-                let (l, h) = match field {
-                    Field::Linear(field) => linear(simd, field, &part),
-                    Field::Normalized(field) => linear(simd, &field.vectors, &part),
-                    Field::Quadratic(field) => quadratic(simd, field, &part),
-                };
-                let (mut to_light, mut to_half) = (dot(normal, l), dot(normal, h));
-                if matches!(field, Field::Normalized(_)) {
-                    to_light *= inverse_length(simd, l);
-                    to_half *= inverse_length(simd, h);
+        let mut total = [splat3(simd, [0.0; 3]); 2];
+        for (material, terms) in self.terms.iter().enumerate() {
+            let (normal, share) = match &self.relief {
+                None => ([splat(simd, 0.0), splat(simd, 0.0), side], splat(simd, 1.0)),
+                Some(map) => {
+                    let Grain { sum, share } = fetched.grain(simd, map, material as u32);
+                    let length = rsqrt(simd, dot(sum, sum).max(splat(simd, 1e-20))) * side;
+                    (scale(sum, length), share)
                 }
-                light_cosine = part.lanes.select(to_light, light_cosine);
-                half_cosine = part.lanes.select(to_half, half_cosine);
+            };
+            if share.simd_gt(splat(simd, 0.0)).any_true() {
+                add_share(&mut total, lit(simd, terms, block, normal), share);
             }
-            self.terms.add(simd, light, &Products { light: light_cosine, half: half_cosine }, &mut sum);
         }
-        self.finish.encode(simd, sum[0], sum[1], &fetched.at)
+        self.finish.encode(simd, total[0], total[1], &fetched.at)
     }
+}
+
+/// Diffuse and specular light of all lamps on normals.
+#[inline(always)]
+fn lit<S: Simd>(simd: S, terms: &Terms, block: &Block<'_, S, SetUp>, normal: Vec3x16<S>) -> [Vec3x16<S>; 2] {
+    let mut sum = terms.start(simd);
+    for light in 0..terms.lights() {
+        let [mut light_cosine, mut half_cosine] = [splat(simd, 0.0); 2];
+        for i in 0..block.parts() {
+            let part = block.part(simd, i);
+            let Some(field) = part.set_up.fields.get(light) else { continue };
+            let (l, h) = match field {
+                Field::Linear(field) => linear(simd, field, &part),
+                Field::Normalized(field) => linear(simd, &field.vectors, &part),
+                Field::Quadratic(field) => quadratic(simd, field, &part),
+            };
+            let (mut to_light, mut to_half) = (dot(normal, l), dot(normal, h));
+            if matches!(field, Field::Normalized(_)) {
+                to_light *= inverse_length(simd, l);
+                to_half *= inverse_length(simd, h);
+            }
+            light_cosine = part.lanes.select(to_light, light_cosine);
+            half_cosine = part.lanes.select(to_half, half_cosine);
+        }
+        terms.add(simd, light, &Products { light: light_cosine, half: half_cosine }, &mut sum);
+    }
+    sum
 }
 
 #[inline(always)]
