@@ -1,7 +1,7 @@
 //! The shade table: the one thing that is lit each frame.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x16};
+use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 use glam::Vec3;
 
 use crate::color::{LinearRgb, Rgba8};
@@ -10,7 +10,7 @@ use crate::indexed::NormalTable;
 use crate::light::scalar::luminance;
 use crate::light::{Blend, Lighting, Material, Prepared, Shade};
 use crate::normal::{Normal, Space};
-use crate::simd::{LANES, splat3, srgb_code, three, two};
+use crate::simd::{LANES, gather, splat3, srgb_pixel, three, two};
 
 /// One [`Shade`] per entry of a [`NormalTable`].
 ///
@@ -121,25 +121,20 @@ fn light_span<S: Simd, Sp: Space>(
 /// Encodes the colours of a white surface, sixteen at a time.
 #[inline(always)]
 fn encode<S: Simd>(simd: S, entries: &[Shade], blend: Blend, colors: &mut [Rgba8]) {
+    let components: &[u32] = bytemuck::cast_slice(entries);
     let white = f32x16::splat(simd, 1.0);
-    for (entries, colors) in entries.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let mut planes = [[0.0f32; LANES]; 6];
-        for (lane, Shade { diffuse: d, specular: s }) in entries.iter().enumerate() {
-            for (plane, value) in planes.iter_mut().zip([d.r, d.g, d.b, s.r, s.g, s.b]) {
-                plane[lane] = value;
-            }
-        }
-        let codes = three!(k => {
-            let [diffuse, specular] = two!(i => f32x16::simd_from(simd, planes[k + 3 * i]));
-            srgb_code(simd, blend.over(simd, diffuse, specular, white))
+    let first = u32x16::from_fn(simd, |lane| lane as u32 * 6);
+    for (i, colors) in colors.chunks_mut(LANES).enumerate() {
+        let first = first + (i * LANES * 6) as u32;
+        let light = three!(k => {
+            let [diffuse, specular] =
+                two!(i => gather(simd, components, first + (k + 3 * i) as u32).bitcast::<f32x16<S>>());
+            blend.over(simd, diffuse, specular, white)
         });
-        let mut lanes = [[0u32; LANES]; 3];
-        for (lanes, codes) in lanes.iter_mut().zip(codes) {
-            codes.store_slice(lanes);
-        }
-        for (lane, color) in colors.iter_mut().enumerate() {
-            *color = Rgba8::new(lanes[0][lane] as u8, lanes[1][lane] as u8, lanes[2][lane] as u8, 255);
-        }
+        let mut words = [0; LANES];
+        srgb_pixel(simd, light).store_array(&mut words);
+        let bytes: &[Rgba8] = bytemuck::cast_slice(&words);
+        colors.copy_from_slice(&bytes[..colors.len()]);
     }
 }
 

@@ -14,7 +14,7 @@ mod srgb;
 pub(crate) use memory::{STREAM, gather, gather_u16, stream, stream_end};
 pub(crate) use power::{Power, exp2, log2};
 pub(crate) use root::{recip, rsqrt};
-pub(crate) use srgb::{srgb_code, srgb_light};
+pub(crate) use srgb::{srgb_code, srgb_light, srgb_pixel};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};

@@ -1,6 +1,6 @@
 //! The sRGB curve.
 
-use super::rsqrt;
+use super::{Vec3x16, rsqrt, three};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x16, u32x16};
 
@@ -26,6 +26,14 @@ pub(crate) fn srgb_code<S: Simd>(simd: S, c: f32x16<S>) -> u32x16<S> {
 
 /// 255 · (1.055 q^(5/3) − 0.055) + ½ for q from the toe's 0.2365 to 1, highest power first: minimax, off by 0.009 codes at most.
 const POLYNOMIAL: [f32; 5] = [20.739_137, -85.552_88, 286.283_8, 50.014_65, -15.975_943];
+
+/// Opaque pixels of linear light, encoded, as they lie in memory.
+#[inline(always)]
+pub(crate) fn srgb_pixel<S: Simd>(simd: S, light: Vec3x16<S>) -> u32x16<S> {
+    let [r, g, b] = three!(k => srgb_code(simd, light[k]));
+    let opaque = u32x16::splat(simd, u32::from_le_bytes([0, 0, 0, 255]));
+    r | (g << 8) | (b << 16) | opaque
+}
 
 /// Linear light of an 8-bit sRGB code, off by a seventieth of the distance between two codes at most.
 #[inline(always)]

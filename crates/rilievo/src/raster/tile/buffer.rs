@@ -206,13 +206,6 @@ fn pixels_within(columns: usize, lines: usize) -> u64 {
     (0x1111 * row) & ((1 << (lines * BLOCK)) - 1)
 }
 
-/// An opaque pixel, as it lies in memory.
-#[inline(always)]
-pub(super) fn pack<S: Simd>(simd: S, [r, g, b]: [u32x16<S>; 3]) -> u32x16<S> {
-    let opaque = u32x16::splat(simd, u32::from_le_bytes([0, 0, 0, 255]));
-    r | (g << 8) | (b << 16) | opaque
-}
-
 /// A pixel as [`Tile`] keeps it.
 pub(super) fn word(color: Rgba8) -> u32 {
     u32::from_le_bytes([color.r, color.g, color.b, color.a])

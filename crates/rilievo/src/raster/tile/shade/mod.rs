@@ -15,11 +15,10 @@ pub(super) use vectors::Vectors;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, u32x16};
 
-use super::buffer::pack;
 use super::texture::{Footprint, Look, Texture};
 use crate::light::Blend;
 use crate::raster::texture::TextureFilter;
-use crate::simd::{Vec3x16, splat, splat3, srgb_code, three};
+use crate::simd::{Vec3x16, splat, splat3, srgb_pixel, three};
 
 /// A base colour, as lanes read it.
 #[derive(Debug, Clone, Copy)]
@@ -56,14 +55,8 @@ impl Finish<'_> {
                 |texel| base.texture.vector(simd, texel, false),
             ),
         };
-        encode(simd, three!(k => self.blend.over(simd, diffuse[k], specular[k], base[k])))
+        srgb_pixel(simd, three!(k => self.blend.over(simd, diffuse[k], specular[k], base[k])))
     }
-}
-
-/// Linear light as a pixel.
-#[inline(always)]
-pub(super) fn encode<S: Simd>(simd: S, light: Vec3x16<S>) -> u32x16<S> {
-    pack(simd, three!(k => srgb_code(simd, light[k])))
 }
 
 /// A map of normals, as lanes read it.
