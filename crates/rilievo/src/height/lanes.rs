@@ -5,8 +5,10 @@
 //! is the scalar path's; in the few texels whose component lies that close to the border of two codes, the scalar path
 //! is asked. So how an instruction set estimates roots, and whether it fuses, is not in the result.
 
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f32x16, i32x16, u8x64, u16x16, u32x16};
+use fearless_simd::{Simd, f32x16, i32x16, u8x64, u16x16, u32x16};
 
 use super::Filter;
 use crate::normal::{Normal, encode_u8};

@@ -9,8 +9,10 @@
     expect(unsafe_code, reason = "the instructions take addresses; they are limited here")
 )]
 
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, u8x64, u32x16};
+use fearless_simd::{Simd, u8x64, u32x16};
 
 /// `table[index]` in each lane; an index beyond the table reads its last word.
 ///
@@ -84,7 +86,7 @@ pub(crate) const STREAM: usize = 64;
 /// called when all is written.
 #[inline(always)]
 pub(crate) fn stream<S: Simd>(simd: S, bytes: u8x64<S>, out: &mut [u8; STREAM]) {
-    if out.as_ptr().addr() % STREAM != 0 {
+    if !out.as_ptr().addr().is_multiple_of(STREAM) {
         return bytes.store_array(out);
     }
     match simd.level() {

@@ -1,7 +1,9 @@
 //! Reciprocals and reciprocal roots.
 
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f32x16};
+use fearless_simd::{Simd, f32x16};
 
 /// 1/√`a` for normal, positive `a`, within 2⁻¹³ (half an 8-bit code of a highlight of exponent 128); other values give
 /// garbage in their lane.
@@ -41,6 +43,7 @@ pub(crate) fn rsqrt<S: Simd>(simd: S, a: f32x16<S>) -> f32x16<S> {
 }
 
 /// One step of Newton: `r` (3 − a r²) / 2.
+#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn refine<S: Simd>(a: f32x16<S>, r: f32x16<S>) -> f32x16<S> {
     r * (1.5 - a * 0.5 * r * r)

@@ -155,23 +155,25 @@ fn add_share<S: Simd>(sum: &mut [Vec3x16<S>; 2], shade: [Vec3x16<S>; 2], share: 
 
 /// The weighted mean of what a map says under each pixel.
 #[inline(always)]
-pub(super) fn mean<S: Simd>(
+pub(super) fn mean<S: Simd, const N: usize>(
     simd: S,
     texture: &Texture,
     look: &Look,
     at: &Footprint<S>,
-    vector: impl Fn(u32x16<S>) -> Vec3x16<S>,
-) -> Vec3x16<S> {
-    let mut sum = [f32x16::splat(simd, 0.0); 3];
+    values: impl Fn(u32x16<S>) -> [f32x16<S>; N],
+) -> [f32x16<S>; N] {
+    let mut sums = [f32x16::splat(simd, 0.0); N];
     texture.taps(
         simd,
         look,
         at,
         #[inline(always)]
         |texel, weight| {
-            let v = vector(texel);
-            sum = three!(k => v[k].mul_add(weight, sum[k]));
+            let found = values(texel);
+            for k in 0..N {
+                sums[k] = found[k].mul_add(weight, sums[k]);
+            }
         },
     );
-    sum
+    sums
 }

@@ -1,9 +1,9 @@
 //! Index map and shade table (Tarini et al. 2000, § 5).
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
+use fearless_simd::{Simd, mask32x16, u32x16};
 
-use super::Finish;
+use super::{Finish, mean};
 use crate::light::{Blend, ShadeTable};
 use crate::raster::texture::TextureFilter;
 use crate::raster::tile::batch::{Block, Seen, Shader};
@@ -11,7 +11,7 @@ use crate::raster::tile::buffer::word;
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
 use crate::raster::tile::texture::{Footprint, Footprints, Look, Texture, largest, read_shade, shade_words};
-use crate::simd::{gather, three};
+use crate::simd::gather;
 
 /// Texture coordinates and 1/w.
 const ATTRIBUTES: usize = 3;
@@ -151,23 +151,18 @@ impl Shader<ATTRIBUTES> for Filtered<'_> {
         _: &Block<'_, S, SetUp>,
         &(at, behind): &(Footprint<S>, mask32x16<S>),
     ) -> u32x16<S> {
-        let mut sums = [f32x16::splat(simd, 0.0); 6];
         let shades = &self.shades;
         // Where the table of a pixel begins.
         let table = behind.select(u32x16::splat(simd, shades.entries), u32x16::splat(simd, 0));
-        self.indices.taps(
+        let [r, g, b, sr, sg, sb] = mean(
             simd,
+            self.indices,
             &self.look,
             &at,
             #[inline(always)]
-            |texel, weight| {
-                let shade = read_shade(simd, &shades.words, self.indices.index(simd, texel) + table, shades.largest);
-                for k in 0..6 {
-                    sums[k] = shade[k].mul_add(weight, sums[k]);
-                }
-            },
+            |texel| read_shade(simd, &shades.words, self.indices.index(simd, texel) + table, shades.largest),
         );
-        self.finish.encode(simd, three!(k => sums[k]), three!(k => sums[k + 3]), &at)
+        self.finish.encode(simd, [r, g, b], [sr, sg, sb], &at)
     }
 }
 
@@ -199,19 +194,14 @@ impl Shader<ATTRIBUTES> for Static<'_> {
 
     #[inline(always)]
     fn shade<S: Simd>(&self, simd: S, _: &Block<'_, S, SetUp>, at: &Footprint<S>) -> u32x16<S> {
-        let mut sums = [f32x16::splat(simd, 0.0); 6];
-        self.shades.taps(
+        let [r, g, b, sr, sg, sb] = mean(
             simd,
+            self.shades,
             &self.look,
             at,
             #[inline(always)]
-            |texel, weight| {
-                let shade = self.shades.shade(simd, texel);
-                for k in 0..6 {
-                    sums[k] = shade[k].mul_add(weight, sums[k]);
-                }
-            },
+            |texel| self.shades.shade(simd, texel),
         );
-        self.finish.encode(simd, three!(k => sums[k]), three!(k => sums[k + 3]), at)
+        self.finish.encode(simd, [r, g, b], [sr, sg, sb], at)
     }
 }
