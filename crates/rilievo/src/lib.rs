@@ -12,7 +12,7 @@
 //!
 //! # Features
 //! - `rayon` (default): long stages use all cores. Results are the same bits without it.
-// Not `forbid`: one file may use instructions that take addresses, and says why (`simd/memory.rs`).
+// Not `forbid`: one file may read tables by instructions that take addresses, and says why (`simd/gather.rs`).
 #![deny(unsafe_code)]
 
 pub mod color;

@@ -12,7 +12,6 @@ use fearless_simd::{Simd, f32x16, i32x16, u8x64, u16x16, u32x16};
 
 use super::Filter;
 use crate::normal::{Normal, encode_u8};
-use crate::simd::{STREAM, stream, stream_end};
 
 /// Texels of a vector.
 pub(super) const LANES: usize = 16;
@@ -61,27 +60,15 @@ impl Slopes {
     #[inline(always)]
     pub(super) fn interior<S: Simd>(self, simd: S, rows: Rows<'_>, out: &mut [[u8; 4]]) -> bool {
         let Some(inside) = out.len().checked_sub(2).filter(|&n| n >= LANES) else { return false };
-        // Whole vectors where they are written whole lines at a time; ends are done as vectors that overlap those.
-        let address = out.as_ptr().addr() + size_of::<[u8; 4]>();
-        let skipped = (address.next_multiple_of(STREAM) - address) / size_of::<[u8; 4]>();
-        let skipped = if skipped + LANES <= inside { skipped } else { 0 };
-        let end = skipped + (inside - skipped) / LANES * LANES;
-        if skipped > 0 {
-            self.part(simd, rows, out, 0..LANES);
+        let whole = inside - inside % LANES;
+        self.vectors(simd, rows, &mut out[1..=whole]);
+        if whole < inside {
+            // What is left over is done as a last vector that overlaps the one before.
+            let start = inside - LANES;
+            let [above, here, below] = rows;
+            self.vectors(simd, [&above[start..], &here[start..], &below[start..]], &mut out[1 + start..=inside]);
         }
-        self.part(simd, rows, out, skipped..end);
-        if end < inside {
-            self.part(simd, rows, out, inside - LANES..inside);
-        }
-        stream_end();
         true
-    }
-
-    /// Whole vectors from one texel of the interior to another.
-    #[inline(always)]
-    fn part<S: Simd>(self, simd: S, [above, here, below]: Rows<'_>, out: &mut [[u8; 4]], at: std::ops::Range<usize>) {
-        let start = at.start;
-        self.vectors(simd, [&above[start..], &here[start..], &below[start..]], &mut out[1 + start..=at.end]);
     }
 
     /// Whole vectors; `rows` begin one texel to the left of `out`.
@@ -98,10 +85,9 @@ impl Slopes {
 
     #[inline(always)]
     fn cross<S: Simd>(self, simd: S, [above, here, below]: Rows<'_>, out: &mut [u8]) {
-        let out = out.as_chunks_mut::<STREAM>().0;
         let along = here.chunks_exact(LANES).zip(here[2..].chunks_exact(LANES));
         let across = above[1..].chunks_exact(LANES).zip(below[1..].chunks_exact(LANES));
-        for (((left, right), (up, down)), out) in along.zip(across).zip(out) {
+        for (((left, right), (up, down)), out) in along.zip(across).zip(out.chunks_exact_mut(LANES * 4)) {
             let [left, right, up, down] = [load(simd, left), load(simd, right), load(simd, up), load(simd, down)];
             self.pack(simd, (right - left).to_float(), (up - down).to_float(), out);
         }
@@ -110,9 +96,8 @@ impl Slopes {
     /// The weights (1 1 1), (1 2 1) or (3 10 3) by `KIND`.
     #[inline(always)]
     fn product<S: Simd, const KIND: u8>(self, simd: S, [above, here, below]: Rows<'_>, out: &mut [u8]) {
-        let out = out.as_chunks_mut::<STREAM>().0;
         let rows = windows(above).zip(windows(here)).zip(windows(below));
-        for (((a, h), b), out) in rows.zip(out) {
+        for (((a, h), b), out) in rows.zip(out.chunks_exact_mut(LANES * 4)) {
             let [a0, a1, a2] = [load(simd, a.0), load(simd, a.1), load(simd, a.2)];
             let [h0, h2] = [load(simd, h.0), load(simd, h.2)];
             let [b0, b1, b2] = [load(simd, b.0), load(simd, b.1), load(simd, b.2)];
@@ -143,7 +128,7 @@ impl Slopes {
 
     /// Writes the codes of normals whose slopes are `right` and `up` times the scale.
     #[inline(always)]
-    fn pack<S: Simd>(self, simd: S, right: f32x16<S>, up: f32x16<S>, out: &mut [u8; STREAM]) {
+    fn pack<S: Simd>(self, simd: S, right: f32x16<S>, up: f32x16<S>, out: &mut [u8]) {
         let splat = |v: f32| f32x16::splat(simd, v);
         let steepness = up.mul_add(up, right * right);
         let squared = steepness.mul_add(splat(self.scale * self.scale), splat(1.0));
@@ -159,20 +144,19 @@ impl Slopes {
         let alpha = i32x16::splat(simd, 0xff00_0000_u32 as i32);
         let packed = (x >> 15) | ((y >> 7) & 0xff00) | ((z << 1) & 0x00ff_0000) | alpha;
         let bytes: u8x64<S> = packed.bitcast();
+        bytes.store_slice(out);
         // No slope at all lies on a border, but there is no doubt about it.
         let doubtful = ((x & BORDER).simd_eq(0) & right.simd_ne(0.0))
             | ((y & BORDER).simd_eq(0) & up.simd_ne(0.0))
             | (z & BORDER).simd_eq(0);
-        if !doubtful.any_true() {
-            return stream(simd, bytes, out);
-        }
-        bytes.store_array(out);
-        let (right, up) = ((right * self.scale).to_array(), (up * self.scale).to_array());
-        let mut lanes = doubtful.to_bitmask();
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
-            out[lane * 4..lane * 4 + 4].copy_from_slice(&code(right[lane], up[lane]));
+        if doubtful.any_true() {
+            let (right, up) = ((right * self.scale).to_array(), (up * self.scale).to_array());
+            let mut lanes = doubtful.to_bitmask();
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                out[lane * 4..lane * 4 + 4].copy_from_slice(&code(right[lane], up[lane]));
+            }
         }
     }
 }

@@ -6,12 +6,12 @@
 //!
 //! - **Determinism:** class C; each function says how far it may be off, and the tests hold it to `f64`.
 
-mod memory;
+mod gather;
 mod power;
 mod root;
 mod srgb;
 
-pub(crate) use memory::{STREAM, gather, gather_u16, stream, stream_end};
+pub(crate) use gather::{gather, gather_u16};
 pub(crate) use power::{Power, exp2, log2};
 pub(crate) use root::{recip, rsqrt};
 pub(crate) use srgb::{srgb_code, srgb_light, srgb_pixel};

@@ -252,7 +252,10 @@ fn choose<'s>(
                 return Ok(pixelwise(Shading::Exact(exact), place, options, skipped));
             };
             let (lighting, eye) = (exact.lighting(), exact.eye());
-            if let Some(answers) = materials.iter().map(|m| Glossy::new(m, lighting, eye)).collect() {
+            if let [only] = materials
+                && let Some(answer) = Glossy::new(only, lighting, eye)
+            {
+                let answers = vec![answer];
                 return Ok(place.with(Exact { relief, answers, eye, finish, with_levels }, skipped));
             }
             let answer = |material| General { material: Prepared::new(material, lighting), eye };
@@ -270,7 +273,14 @@ fn choose<'s>(
                 Some(terms) => {
                     let vertices = interpolated.vertices();
                     let (mesh, shading) = (object.mesh, interpolated);
-                    Ok(place.with(Vectors { relief, shading, vertices, mesh, terms, finish, with_levels }, skipped))
+                    if terms.len() == 1 {
+                        let one: Vectors<'_, false> =
+                            Vectors { relief, shading, vertices, mesh, terms, finish, with_levels };
+                        return Ok(place.with(one, skipped));
+                    }
+                    let many: Vectors<'_, true> =
+                        Vectors { relief, shading, vertices, mesh, terms, finish, with_levels };
+                    Ok(place.with(many, skipped))
                 }
                 None => Ok(pixelwise(Shading::Interpolated(interpolated), place, options, skipped)),
             }

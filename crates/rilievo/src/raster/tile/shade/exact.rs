@@ -35,7 +35,7 @@ pub(in crate::raster::tile) enum Relief<'a> {
 /// Materials whose light is evaluated by the pixel.
 pub(in crate::raster::tile) struct Exact<'a, A> {
     pub(in crate::raster::tile) relief: Relief<'a>,
-    /// Of each material that the map may name.
+    /// Of each material that the map may name; the first alone unless there may be many ([`Answer::MANY`]).
     pub(in crate::raster::tile) answers: Vec<A>,
     pub(in crate::raster::tile) eye: Vec3,
     pub(in crate::raster::tile) finish: Finish<'a>,
@@ -105,6 +105,12 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
         let at = &fetched.at;
         let frame = Frame { smooth, tangent, sign };
         let mut sum = [splat3(simd, [0.0; 3]); 2];
+        if let (false, Some(answer)) = (A::MANY, self.answers.first()) {
+            let (normal, _) = self.normal(simd, fetched, &frame, 0);
+            let normal = if behind { scale(normal, side) } else { normal };
+            let [diffuse, specular] = answer.shade(simd, &Lit { normal, to_eye, w: at.w, inv_w: at.inv_w });
+            return self.finish.encode(simd, diffuse, specular, at);
+        }
         for (material, answer) in self.answers.iter().enumerate() {
             let (normal, share) = self.normal(simd, fetched, &frame, material as u32);
             if !share.simd_gt(splat(simd, 0.0)).any_true() {
@@ -117,7 +123,7 @@ impl<A: Answer> Shader<ATTRIBUTES> for Exact<'_, A> {
     }
 }
 
-impl<A> Exact<'_, A> {
+impl<A: Answer> Exact<'_, A> {
     /// The normal of a material under each pixel, not normalised, and the material's share of it.
     #[inline(always)]
     fn normal<S: Simd>(
@@ -145,8 +151,12 @@ impl<A> Exact<'_, A> {
                     |texel, weight| {
                         let entry = texture.index(simd, texel) << 2;
                         let normal = three!(k => gather(simd, entries, entry + k as u32).bitcast::<f32x16<S>>());
-                        let found = gather(simd, entries, entry + 3);
-                        grain.add(normal, of_material(simd, found, material, weight));
+                        let weight = if A::MANY {
+                            of_material(simd, gather(simd, entries, entry + 3), material, weight)
+                        } else {
+                            weight
+                        };
+                        grain.add(normal, weight);
                     },
                 );
                 (grain.sum, grain.share)

@@ -17,8 +17,8 @@ use crate::simd::{Vec3x16, dot, rsqrt, scale, splat, splat3, three};
 /// Texture coordinates and 1/w.
 const ATTRIBUTES: usize = 3;
 
-/// Materials lit by interpolated vectors.
-pub(in crate::raster::tile) struct Vectors<'a> {
+/// Materials lit by interpolated vectors; one alone unless there may be `MANY` (see [`super::glossy::Answer::MANY`]).
+pub(in crate::raster::tile) struct Vectors<'a, const MANY: bool> {
     /// The map of tangent-space normals; the mesh's own without it.
     pub(in crate::raster::tile) relief: Option<NormalTexture<'a>>,
     pub(in crate::raster::tile) shading: Interpolated<'a>,
@@ -39,7 +39,7 @@ pub(in crate::raster::tile) struct SetUp {
     side: f32,
 }
 
-impl Shader<ATTRIBUTES> for Vectors<'_> {
+impl<const MANY: bool> Shader<ATTRIBUTES> for Vectors<'_, MANY> {
     type SetUp = SetUp;
 
     fn attributes(&self, vertex: &Vertex, inv_w: f32) -> [f32; ATTRIBUTES] {
@@ -75,21 +75,38 @@ impl Shader<ATTRIBUTES> for Vectors<'_> {
             let part = block.part(simd, i);
             side = part.lanes.select(splat(simd, part.set_up.side), side);
         }
+        if let (false, Some(terms)) = (MANY, self.terms.first()) {
+            let (normal, _) = self.normal(simd, fetched, side, 0);
+            let [diffuse, specular] = lit(simd, terms, block, normal);
+            return self.finish.encode(simd, diffuse, specular, &fetched.at);
+        }
         let mut total = [splat3(simd, [0.0; 3]); 2];
         for (material, terms) in self.terms.iter().enumerate() {
-            let (normal, share) = match &self.relief {
-                None => ([splat(simd, 0.0), splat(simd, 0.0), side], splat(simd, 1.0)),
-                Some(map) => {
-                    let Grain { sum, share } = fetched.grain(simd, map, material as u32);
-                    let length = rsqrt(simd, dot(sum, sum).max(splat(simd, 1e-20))) * side;
-                    (scale(sum, length), share)
-                }
-            };
+            let (normal, share) = self.normal(simd, fetched, side, material as u32);
             if share.simd_gt(splat(simd, 0.0)).any_true() {
                 add_share(&mut total, lit(simd, terms, block, normal), share);
             }
         }
         self.finish.encode(simd, total[0], total[1], &fetched.at)
+    }
+}
+
+impl<const MANY: bool> Vectors<'_, MANY> {
+    /// The unit normal of a material under each pixel, turned to the eye's side, and the material's share of it.
+    #[inline(always)]
+    fn normal<S: Simd>(
+        &self,
+        simd: S,
+        fetched: &Fetched<S>,
+        side: f32x16<S>,
+        material: u32,
+    ) -> (Vec3x16<S>, f32x16<S>) {
+        let Some(map) = &self.relief else {
+            return ([splat(simd, 0.0), splat(simd, 0.0), side], splat(simd, 1.0));
+        };
+        let Grain { sum, share } = fetched.grain(simd, map, material);
+        let length = rsqrt(simd, dot(sum, sum).max(splat(simd, 1e-20))) * side;
+        (scale(sum, length), share)
     }
 }
 
