@@ -227,8 +227,15 @@ fn choose<'s>(
             if options.filter == TextureFilter::Nearest && base.is_none() {
                 return Ok(place.with(Nearest::new(indices, look(Vec2::ONE), front, back, object.blend), skipped));
             }
-            Ok(place
-                .with(Filtered { indices, look: look(Vec2::ONE), shades: Shades::new(front, back), finish }, skipped))
+            Ok(place.with(
+                Filtered {
+                    indices,
+                    look: look(Vec2::ONE),
+                    shades: Shades::new(front, back, base.is_none().then_some(object.blend)),
+                    finish,
+                },
+                skipped,
+            ))
         }
         (Shading::Exact(exact), map) => {
             let relief = match (object.detail, map) {

@@ -1,17 +1,18 @@
 //! Index map and shade table (Tarini et al. 2000, § 5).
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, mask32x16, u32x16};
+use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
 
 use super::{Finish, mean};
-use crate::light::{Blend, ShadeTable};
+use crate::color::LinearRgb;
+use crate::light::{Blend, Shade, ShadeTable};
 use crate::raster::texture::TextureFilter;
 use crate::raster::tile::batch::{Block, Seen, Shader};
 use crate::raster::tile::buffer::word;
 use crate::raster::tile::front::Vertex;
 use crate::raster::tile::planes::Planes;
-use crate::raster::tile::texture::{Footprint, Footprints, Look, Texture, largest, read_shade, shade_words};
-use crate::simd::gather;
+use crate::raster::tile::texture::{Footprint, Footprints, Look, Texture, float, largest, read_shade, shade_words};
+use crate::simd::{gather, three};
 
 /// Texture coordinates and 1/w.
 const ATTRIBUTES: usize = 3;
@@ -105,15 +106,48 @@ pub(in crate::raster::tile) struct Shades {
     largest: f32,
     /// How many entries the map has; those for back faces follow, if there are any.
     entries: u32,
+    /// Without a base colour there is one colour an entry, in one word; else diffuse and specular light, in three.
+    plain: bool,
 }
 
+/// The largest codes of red, green and blue where a colour is one word.
+const CODES: [u32; 3] = [2047, 2047, 1023];
+/// Where each begins.
+const SHIFTS: [u32; 3] = [0, 11, 22];
+
 impl Shades {
-    /// Of the shades of front faces, and of back faces where they are drawn.
-    pub(in crate::raster::tile) fn new(front: &ShadeTable, back: Option<&ShadeTable>) -> Self {
-        let both = || front.entries().iter().chain(back.into_iter().flat_map(ShadeTable::entries));
-        let largest = largest(both());
-        let words = both().flat_map(|shade| shade_words(shade, largest)).collect();
-        Self { words, largest, entries: front.entries().len() as u32 }
+    /// Of the shades of front faces, and of back faces where they are drawn. `plain` is how they become colours, if they do so by
+    /// themselves.
+    pub(in crate::raster::tile) fn new(front: &ShadeTable, back: Option<&ShadeTable>, plain: Option<Blend>) -> Self {
+        let shades = || front.entries().iter().chain(back.into_iter().flat_map(ShadeTable::entries)).copied();
+        let entries = front.entries().len() as u32;
+        let Some(blend) = plain else {
+            let all: Vec<Shade> = shades().collect();
+            let largest = largest(all.iter());
+            let words = all.iter().flat_map(|shade| shade_words(shade, largest)).collect();
+            return Self { words, largest, entries, plain: false };
+        };
+        let colors = || shades().map(|shade| shade.over(LinearRgb::WHITE, blend));
+        let largest = colors().fold(1e-6, |most: f32, c| most.max(c.r).max(c.g).max(c.b));
+        // Roots, so that codes lie about as close as the eye's: a quarter of an 8-bit step apart.
+        let code = |v: f32, k: usize| (((v.max(0.0) / largest).sqrt() * CODES[k] as f32 + 0.5) as u32) << SHIFTS[k];
+        let words = colors().map(|c| code(c.r, 0) | code(c.g, 1) | code(c.b, 2)).collect();
+        Self { words, largest, entries, plain: true }
+    }
+
+    /// Diffuse red, green and blue of entries, then specular; a plain colour counts as diffuse.
+    #[inline(always)]
+    fn read<S: Simd>(&self, simd: S, entry: u32x16<S>) -> [f32x16<S>; 6] {
+        if !self.plain {
+            return read_shade(simd, &self.words, entry, self.largest);
+        }
+        let word = gather(simd, &self.words, entry);
+        let [r, g, b] = three!(k => {
+            let root = float((word >> SHIFTS[k]) & CODES[k]) * (self.largest.sqrt() / CODES[k] as f32);
+            root * root
+        });
+        let none = f32x16::splat(simd, 0.0);
+        [r, g, b, none, none, none]
     }
 }
 
@@ -160,7 +194,7 @@ impl Shader<ATTRIBUTES> for Filtered<'_> {
             &self.look,
             &at,
             #[inline(always)]
-            |texel| read_shade(simd, &shades.words, self.indices.index(simd, texel) + table, shades.largest),
+            |texel| shades.read(simd, self.indices.index(simd, texel) + table),
         );
         self.finish.encode(simd, [r, g, b], [sr, sg, sb], &at)
     }
