@@ -1,4 +1,4 @@
-//! Look-ups: each lane reads a table at an index of its own.
+//! Look-ups and prefetches: each lane reads a table at an index of its own.
 //!
 //! The one place in the crate with unsafe code: instruction sets from AVX2 on look up eight or sixteen words at once, and those
 //! instructions take addresses. Indices are limited to the table here, in front of each of them, so whatever the caller computed,
@@ -77,6 +77,26 @@ pub(crate) fn gather_u16<S: Simd>(simd: S, pairs: &[u32], index: u32x16<S>) -> u
     odd.select(pair >> 16, pair & 0xffff)
 }
 
+/// Sends for the cache lines of `table[index]`, so that a look-up some hundred instructions later need not wait for them.
+///
+/// A look-up itself, however early, holds up everything behind it until its words are there: processors finish instructions in order.
+#[inline(always)]
+pub(crate) fn prefetch<S: Simd>(table: &[u32], index: u32x16<S>) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        let mut indices = [0; 16];
+        index.store_array(&mut indices);
+        for i in indices {
+            let word = table.as_ptr().wrapping_add(i as usize);
+            // SAFETY: a hint, which reads nothing and is ignored for an address that is nobody's; every processor of this
+            // architecture has it.
+            unsafe { core::arch::x86_64::_mm_prefetch::<{ core::arch::x86_64::_MM_HINT_T0 }>(word.cast()) }
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (table, index);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,6 +112,8 @@ mod tests {
                 let found: [u32; 16] = dispatch!(level, simd => gather(simd, &table, wanted.simd_into(simd)).into());
                 let halves: [u32; 16] =
                     dispatch!(level, simd => gather_u16(simd, &table, wanted.simd_into(simd)).into());
+                // Anywhere, there or not.
+                dispatch!(level, simd => prefetch::<_>(&table, u32x16::simd_from(simd, wanted)));
                 for lane in 0..16 {
                     let at = |i: u32| table[(i as usize).min(len - 1)];
                     assert_eq!(found[lane], at(wanted[lane]), "{level:?} {len}");

@@ -11,7 +11,7 @@ mod power;
 mod root;
 mod srgb;
 
-pub(crate) use gather::{gather, gather_u16};
+pub(crate) use gather::{gather, gather_u16, prefetch};
 pub(crate) use power::{Power, exp2, log2};
 pub(crate) use root::{recip, rsqrt};
 pub(crate) use srgb::{srgb_code, srgb_light, srgb_pixel};

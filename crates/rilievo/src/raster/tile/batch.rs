@@ -21,11 +21,11 @@ pub(super) trait Shader<const N: usize>: Sync {
     /// Prepares a triangle that owns a pixel of a tile.
     fn set_up(&self, triangle: &Seen<'_, N>) -> Self::SetUp;
 
-    /// What is looked up in large maps.
+    /// Where pixels look.
     type Fetched<S: Simd>: Copy;
 
-    /// Looks up in large maps. This is done for a block before the one in front of it is shaded: the light of one block is
-    /// computed while the texels of the next are on their way from far-off memory.
+    /// Sends for what is to be looked up in large maps. This is done for a block before the one in front of it is shaded: the light
+    /// of one block is computed while the texels of the next are on their way from far-off memory.
     fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, Self::SetUp>) -> Self::Fetched<S>;
 
     /// Encoded colours of a block. Lanes that no part has may be anything.

@@ -12,7 +12,7 @@ use crate::light::Shade;
 use crate::mip::MipChain;
 use crate::normal::{Normal, Space, decode_u8, encode_u8};
 use crate::raster::texture::TextureFilter;
-use crate::simd::{Vec3x16, gather, gather_u16, log2, recip, splat, splat3, three, two};
+use crate::simd::{Vec3x16, gather, gather_u16, log2, prefetch, recip, splat, splat3, three, two};
 
 /// Words of a level in [`Texture::levels`]: where it begins, its width, its height.
 const LEVEL_WORDS: u32 = 3;
@@ -148,25 +148,13 @@ impl Texture {
     /// The three components at texel number `at`: from −1 to 1 if `signed`, from 0 to 1 otherwise. Not normalised.
     #[inline(always)]
     pub(super) fn vector<S: Simd>(&self, simd: S, at: u32x16<S>, signed: bool) -> [f32x16<S>; 3] {
-        self.vector_of(simd, self.vector_words(simd, at), signed)
-    }
-
-    #[inline(always)]
-    fn vector_words<S: Simd>(&self, simd: S, at: u32x16<S>) -> [u32x16<S>; 2] {
-        if self.format == Format::Code8 {
-            return [gather(simd, &self.words, at), u32x16::splat(simd, 0)];
-        }
-        let first = at << 1;
-        [gather(simd, &self.words, first), gather(simd, &self.words, first + 1)]
-    }
-
-    /// [`Self::vector`] from the words of the texel.
-    #[inline(always)]
-    pub(super) fn vector_of<S: Simd>(&self, simd: S, [word, z]: [u32x16<S>; 2], signed: bool) -> [f32x16<S>; 3] {
         let (codes, most) = if self.format == Format::Code8 {
+            let word = gather(simd, &self.words, at);
             ([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], 255.0)
         } else {
-            ([word & 0xffff, word >> 16, z], 65_535.0)
+            let first = at << 1;
+            let (xy, z) = (gather(simd, &self.words, first), gather(simd, &self.words, first + 1));
+            ([xy & 0xffff, xy >> 16, z], 65_535.0)
         };
         let (scale, offset) = if signed { (2.0 / most, -1.0) } else { (1.0 / most, 0.0) };
         let (scale, offset) = (f32x16::splat(simd, scale), f32x16::splat(simd, offset));
@@ -196,10 +184,18 @@ impl Texture {
         }
     }
 
-    /// The words of the texel under each pixel; [`Self::vector_of`] reads them.
+    /// The texel under each pixel, its words sent for.
     #[inline(always)]
-    pub(super) fn fetch_nearest<S: Simd>(&self, simd: S, look: &Look, at: &Footprint<S>) -> [u32x16<S>; 2] {
-        self.vector_words(simd, self.nearest(simd, look, at))
+    pub(super) fn send_for<S: Simd>(&self, simd: S, look: &Look, at: &Footprint<S>) -> u32x16<S> {
+        let texel = self.nearest(simd, look, at);
+        let word = match self.format {
+            Format::Index => texel >> 1,
+            Format::Code8 => texel,
+            Format::Code16 => texel << 1,
+            Format::Shade => texel * 3,
+        };
+        prefetch(&self.words, word);
+        texel
     }
 
     /// The texel under each pixel.

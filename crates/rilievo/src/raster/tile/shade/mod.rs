@@ -77,19 +77,20 @@ pub(super) struct Grain<S: Simd> {
     share: f32x16<S>,
 }
 
-/// Where a block's pixels look, and what is under them where that is a single texel.
+/// Where a block's pixels look, and which texel is under them if that is all they see of a map.
 #[derive(Clone, Copy)]
 pub(super) struct Fetched<S: Simd> {
     at: Footprint<S>,
-    nearest: [u32x16<S>; 2],
+    nearest: u32x16<S>,
 }
 
 impl<S: Simd> Fetched<S> {
     #[inline(always)]
     fn new(simd: S, at: Footprint<S>, map: Option<&NormalTexture<'_>>) -> Self {
         let nearest = match map {
-            Some(map) if map.is_plain() => map.texture.fetch_nearest(simd, &map.look, &at),
-            _ => [u32x16::splat(simd, 0); 2],
+            // Smaller levels are near at hand already, and for four texels it does not pay.
+            Some(map) if map.is_plain() => map.texture.send_for(simd, &map.look, &at),
+            _ => u32x16::splat(simd, 0),
         };
         Self { at, nearest }
     }
@@ -98,7 +99,7 @@ impl<S: Simd> Fetched<S> {
     #[inline(always)]
     fn grain(&self, simd: S, map: &NormalTexture<'_>, material: u32) -> Grain<S> {
         if map.is_plain() {
-            return Grain { sum: map.texture.vector_of(simd, self.nearest, true), share: splat(simd, 1.0) };
+            return Grain { sum: map.texture.vector(simd, self.nearest, true), share: splat(simd, 1.0) };
         }
         let mut grain = Grain::none(simd);
         map.texture.taps(

@@ -77,26 +77,24 @@ impl Shader<ATTRIBUTES> for Nearest<'_> {
         (seen.sides.planes(seen.attributes), seen.triangle.back_facing())
     }
 
-    /// The entries.
-    type Fetched<S: Simd> = u32x16<S>;
+    /// Texels, and which pixels are seen from behind.
+    type Fetched<S: Simd> = (u32x16<S>, mask32x16<S>);
 
     #[inline(always)]
-    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> u32x16<S> {
+    fn fetch<S: Simd>(&self, simd: S, block: &Block<'_, S, SetUp>) -> (u32x16<S>, mask32x16<S>) {
         let (at, behind) = surface(simd, block, &self.look);
-        let mut entry = u32x16::splat(simd, 0);
-        self.indices.taps(
-            simd,
-            &self.look,
-            &at,
-            #[inline(always)]
-            |texel, _| entry = self.indices.index(simd, texel),
-        );
-        behind.select(entry + self.entries, entry)
+        (self.indices.send_for(simd, &self.look, &at), behind)
     }
 
     #[inline(always)]
-    fn shade<S: Simd>(&self, simd: S, _: &Block<'_, S, SetUp>, entry: &u32x16<S>) -> u32x16<S> {
-        gather(simd, &self.colors, *entry)
+    fn shade<S: Simd>(
+        &self,
+        simd: S,
+        _: &Block<'_, S, SetUp>,
+        &(texel, behind): &(u32x16<S>, mask32x16<S>),
+    ) -> u32x16<S> {
+        let entry = self.indices.index(simd, texel);
+        gather(simd, &self.colors, behind.select(entry + self.entries, entry))
     }
 }
 
