@@ -8,7 +8,7 @@
 //!
 //! One source serves every instruction set; which one is chosen once for each tile. Coverage is that of the reference to the
 //! pixel, by the same snapped vertices and the same whole numbers; colours are within a tolerance that
-//! `dev/testkit/tests/renderers.rs` states.
+//! `dev/testkit/tests/renderers` states.
 //!
 //! - **Determinism:** class C; on one machine the same bits for any number of threads.
 
