@@ -1,0 +1,85 @@
+//! The contents of each table, every word the exact value rounded to nearest.
+//!
+//! | table | address | word |
+//! |---|---|---|
+//! | sine | quarter turn, rounded to 2^a steps; the step at the end is wired to 1 | Q2.14 |
+//! | arc sine, arc cosine | Q0.a magnitude, rounded down; words are of the middles | binary angle |
+//! | proportion | the same as arc sine | the arc over 90°, Q0.16 (1 is 65535) |
+//! | secant | quarter turn, rounded down; words are of the middles | Q6.10, limited to 65535 |
+//! | reciprocal | the a bits after the leading one of a number, rounded down; middles | Q0.16 |
+//! | arc tangent | Q0.a quotient ≤ 1, rounded down; middles | binary angle |
+//! | arc tangent by logarithm | a Q6.10 quotient as 4 bits of exponent and a − 4 of mantissa; middles | binary angle |
+
+use super::exact::{self, ONE, TURN, arc_cosine, arc_sine, arc_tangent, nearest_quotient, sin_cos};
+use super::{FRACTION, QUARTER, RECIPROCAL_FRACTION, Rom, Width};
+
+/// Steps of a binary angle in a quarter turn.
+const STEPS: u32 = QUARTER as u32;
+
+impl Rom {
+    /// A quarter wave of the sine.
+    pub(super) fn sine(width: Width) -> Self {
+        let step = |i: usize| TURN / 4 * i as i128 / width.entries() as i128;
+        let value = |i: usize| nearest_quotient(sin_cos(step(i)).0 << FRACTION, ONE);
+        Self::new("sine", (0..width.entries()).map(|i| value(i) as u16))
+    }
+
+    pub(crate) fn arc_sine(width: Width) -> Self {
+        Self::new("arc-sine", middles(width).map(|value| arc_sine(value, STEPS) as u16))
+    }
+
+    pub(crate) fn arc_cosine(width: Width) -> Self {
+        Self::new("arc-cosine", middles(width).map(|value| arc_cosine(value, STEPS) as u16))
+    }
+
+    /// Eq. (26): the arc sine as a proportion of a quarter turn.
+    pub(crate) fn proportion(width: Width) -> Self {
+        Self::new("proportion", middles(width).map(|value| arc_sine(value, u32::from(u16::MAX)) as u16))
+    }
+
+    pub(crate) fn secant(width: Width) -> Self {
+        let word = |middle: i128| {
+            let cos = sin_cos(middle / 4).1;
+            nearest_quotient(ONE << RECIPROCAL_FRACTION, cos).min(u16::MAX.into()) as u16
+        };
+        Self::new("secant", middles(width).map(word))
+    }
+
+    pub(crate) fn reciprocal(width: Width) -> Self {
+        let word = |middle| nearest_quotient(i128::from(u16::MAX) * ONE, ONE + middle) as u16;
+        Self::new("reciprocal", middles(width).map(word))
+    }
+
+    pub(crate) fn arc_tangent(width: Width) -> Self {
+        Self::new("arc-tangent", middles(width).map(|value| arc_tangent(value, ONE, STEPS) as u16))
+    }
+
+    pub(crate) fn log_arc_tangent(width: Width) -> Self {
+        let mantissa_bits = width.bits() - 4;
+        let word = |i: usize| {
+            let exponent = (i >> mantissa_bits) as u32;
+            let mantissa = (i & ((1 << mantissa_bits) - 1)) as i128;
+            // In units of 2^−mantissa_bits, doubled so that the middle is whole; the lowest octave starts at zero.
+            let middle = match exponent {
+                0 => 2 * (2 * mantissa + 1),
+                _ => (2 * ((1 << mantissa_bits) + mantissa) + 1) << exponent,
+            };
+            arc_tangent(middle, 1 << (RECIPROCAL_FRACTION + mantissa_bits + 1), STEPS) as u16
+        };
+        Self::new("log-arc-tangent", (0..width.entries()).map(word))
+    }
+
+    /// What a light gives at each inner product in [0, 1]: `scale · x^exponent`, Q0.16, of the middles.
+    pub(crate) fn light(name: &'static str, width: Width, scale: u16, exponent: u32) -> Self {
+        let word = |middle: i128| {
+            let power = (0..exponent).fold(ONE, |power, _| (power * middle) >> 60);
+            nearest_quotient(power * i128::from(scale), ONE) as u16
+        };
+        Self::new(name, middles(width).map(word))
+    }
+}
+
+/// The middles of a table's intervals of [0, 1].
+fn middles(width: Width) -> impl Iterator<Item = i128> {
+    (0..width.entries() as i128).map(move |i| (2 * i + 1) * (exact::ONE / 2) / width.entries() as i128)
+}
