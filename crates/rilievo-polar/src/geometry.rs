@@ -94,7 +94,7 @@ impl Sample {
                 let arc = arc_sine(y.abs().min(ONE), QUARTER as u32) as u16;
                 if y < 0 { arc.wrapping_neg() } else { arc }
             }
-            Bump::Radius => value(i128::from((((x * x + z * z) >> 56) as u64).isqrt()) << 28),
+            Bump::Radius => value((x * x + z * z).isqrt()),
             Bump::Component(k) => value([x, y, z][k]),
             Bump::Slope(k) => {
                 // Q4.12 of −x/z, limited to ±8.

@@ -33,6 +33,7 @@ mod cost;
 mod frame;
 mod geometry;
 mod light;
+mod limit;
 mod logic;
 mod model;
 mod rom;

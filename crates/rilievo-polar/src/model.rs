@@ -7,6 +7,7 @@ use core::str::FromStr;
 use crate::cost::{KIM_SET_UP, KUGLER_ILLUMINATION, KUGLER_SET_UP, Printed, StageCost, UnitCost};
 use crate::frame::Frame;
 use crate::light::{Diffuse, LightTables, illuminate};
+use crate::limit::limit;
 use crate::logic::{Count, Logic, Numbers, Stage};
 use crate::rom::{Rom, Width};
 use crate::unit::{Blinn, E1, E2, E3, E4, E4d, ExactZ, Kim, Kugler, Peercy, Port, Published, Unit, products};
@@ -282,6 +283,14 @@ impl Model {
             UnitKind::Kugler => UnitCost { set_up: KUGLER_SET_UP, illumination: KUGLER_ILLUMINATION },
             _ => UnitCost { set_up, illumination },
         }
+    }
+
+    /// How far an inner product can be from the exact one, in units of 2⁻¹⁴; derived from the word lengths alone.
+    ///
+    /// Against exact arithmetic on the exact angles and bump vector of which the words are the nearest. None where no
+    /// limit follows: the error of the published unit and of the one with exact Z is the method's, and Blinn's slopes end at ±8.
+    pub fn limit(&self) -> Option<u32> {
+        limit(self.kind, self.width)
     }
 
     /// Its tables, each once, without those of the light.

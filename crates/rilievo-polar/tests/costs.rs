@@ -1,5 +1,4 @@
 //! The counted costs, and what is refused.
-#![expect(clippy::unwrap_used, reason = "tests")]
 
 use rilievo_polar::{Cost, Frame, LightTables, Model, UnitCost, UnitKind, Width};
 

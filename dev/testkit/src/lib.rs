@@ -5,6 +5,7 @@ mod data;
 pub mod golden;
 mod lengths;
 mod npy;
+pub mod polar;
 mod random;
 mod skip;
 

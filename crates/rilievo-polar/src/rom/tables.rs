@@ -1,16 +1,19 @@
-//! The contents of each table, every word the exact value rounded to nearest.
+//! The contents of each table, rounded to nearest.
 //!
 //! | table | address | word |
 //! |---|---|---|
 //! | sine | quarter turn, rounded to 2^a steps; the step at the end is wired to 1 | Q2.14 |
-//! | arc sine, arc cosine | Q0.a magnitude, rounded down; words are of the middles | binary angle |
+//! | arc sine, arc cosine | Q0.a magnitude, rounded down; words are means of the arcs at both ends | binary angle |
 //! | proportion | the same as arc sine | the arc over 90°, Q0.16 (1 is 65535) |
 //! | secant | quarter turn, rounded down; words are of the middles | Q6.10, limited to 65535 |
 //! | reciprocal | the a bits after the leading one of a number, rounded down; middles | Q0.16 |
 //! | arc tangent | Q0.a quotient ≤ 1, rounded down; middles | binary angle |
 //! | arc tangent by logarithm | a Q6.10 quotient as 4 bits of exponent and a − 4 of mantissa; middles | binary angle |
+//!
+//! The arc sine ends steeply: the arc of the last interval's middle would be 1.4 times as far from one of its ends as the mean of
+//! the arcs is from both.
 
-use super::exact::{self, ONE, TURN, arc_cosine, arc_sine, arc_tangent, nearest_quotient, sin_cos};
+use super::exact::{ONE, TURN, arc_sine, arc_tangent, nearest_quotient, sin_cos};
 use super::{FRACTION, QUARTER, RECIPROCAL_FRACTION, Rom, Width};
 
 /// Steps of a binary angle in a quarter turn.
@@ -25,16 +28,16 @@ impl Rom {
     }
 
     pub(crate) fn arc_sine(width: Width) -> Self {
-        Self::new("arc-sine", middles(width).map(|value| arc_sine(value, STEPS) as u16))
+        Self::new("arc-sine", mean_arcs(width, STEPS))
     }
 
     pub(crate) fn arc_cosine(width: Width) -> Self {
-        Self::new("arc-cosine", middles(width).map(|value| arc_cosine(value, STEPS) as u16))
+        Self::new("arc-cosine", mean_arcs(width, STEPS).map(|arc| STEPS as u16 - arc))
     }
 
     /// Eq. (26): the arc sine as a proportion of a quarter turn.
     pub(crate) fn proportion(width: Width) -> Self {
-        Self::new("proportion", middles(width).map(|value| arc_sine(value, u32::from(u16::MAX)) as u16))
+        Self::new("proportion", mean_arcs(width, u32::from(u16::MAX)))
     }
 
     pub(crate) fn secant(width: Width) -> Self {
@@ -79,7 +82,14 @@ impl Rom {
     }
 }
 
+/// The mean of the arc sines at both ends of each interval of [0, 1], in `steps` of a quarter turn.
+fn mean_arcs(width: Width, steps: u32) -> impl Iterator<Item = u16> {
+    const FINER: u32 = 1 << 10;
+    let end = move |i: usize| arc_sine(ONE * i as i128 / width.entries() as i128, steps * FINER);
+    (0..width.entries()).map(move |i| ((end(i) + end(i + 1) + FINER) / (2 * FINER)) as u16)
+}
+
 /// The middles of a table's intervals of [0, 1].
 fn middles(width: Width) -> impl Iterator<Item = i128> {
-    (0..width.entries() as i128).map(move |i| (2 * i + 1) * (exact::ONE / 2) / width.entries() as i128)
+    (0..width.entries() as i128).map(move |i| (2 * i + 1) * (ONE / 2) / width.entries() as i128)
 }

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | Δ, θ ± θN, θ ± Δ | binary angle, 16 bits | exact | wraps |
 //! | u, v, w | Q2.14 | products and halves down | one unit past ±1 |
-//! | θ' = acos w | binary angle | address down, words of middles; ±1 exact | limited at 1 |
+//! | θ' = acos w | binary angle | address down, mean words; ±1 exact | limited at 1 |
 //! | smaller over larger of \|u\|, \|v\| | Q2.14 | reciprocal Q0.16 of a bits after the leading one; product down | none |
 //! | φ' = atan2(v, u) | binary angle | address down, words of middles; axes exact | limited at 45° |
 //! | inner product | Q2.14 | product down | none |

@@ -7,7 +7,7 @@
 //! |---|---|---|---|
 //! | Δ, X = θ + Δ, Y = θ − Δ | binary angle, 16 bits | exact | wraps |
 //! | x, y | Q2.14 | address to nearest of 2^(a+2) a turn, halves down | none |
-//! | η = asin y | binary angle | address down, words of middles; 0, ±1 exact | limited at 1 |
+//! | η = asin y | binary angle | address down, mean words; 0, ±1 exact | limited at 1 |
 //! | x·sec θ | Q6.10 | secant of middles, limited to 64 − 2⁻¹⁰; product down | none |
 //! | ξ | binary angle | address as 4 bits of exponent and a − 4 of mantissa, down; words of middles; 0 exact | none |
 //! | ξ − θN, ξ' − ξ, η' ± η | binary angle | exact | wraps |

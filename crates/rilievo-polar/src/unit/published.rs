@@ -9,11 +9,11 @@
 //! | Δ = φ − φN, X = θ + Δ, Y = θ − Δ | binary angle, 16 bits | exact | wraps |
 //! | sines, cosines of X, Y | Q2.14 | address to nearest of 2^(a+2) a turn | none |
 //! | x = (sin X + sin Y)/2, y = (cos Y − cos X)/2 | Q2.14 | down | none |
-//! | θx = asin x, mirrored for θ > 90° | binary angle | address down, words of middles; 0, ±1 exact | limited at 1 |
+//! | θx = asin x, mirrored for θ > 90° | binary angle | address down, mean words; 0, ±1 exact | limited at 1 |
 //! | Z = θx − θN | binary angle | exact | wraps |
 //! | 1/cos Z, 1/sin Z | Q6.10 | address down, words of middles | limited to 64 − 2⁻¹⁰ |
 //! | y/cos Z, y/sin Z | Q6.10 | down | none: below 2¹⁶ |
-//! | θprop = asin(y/cos Z)/90° | Q0.16 | address down, words of middles; 0 exact | limited at 1 |
+//! | θprop = asin(y/cos Z)/90° | Q0.16 | address down, mean words; 0 exact | limited at 1 |
 //! | φ' = atan2(y, sin Z) | binary angle | address as 4 bits of exponent and a − 4 of mantissa, down; words of middles | none |
 //! | θ' = \|Z\| + (90° − \|Z\|)·θprop | binary angle | product down | none |
 //! | inner product | Q2.14 | product down | none |
