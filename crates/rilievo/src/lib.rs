@@ -26,6 +26,7 @@ pub mod measure;
 pub mod mip;
 pub mod normal;
 pub mod par;
+pub mod polar;
 pub mod pose;
 pub mod progress;
 pub mod quantize;

@@ -13,7 +13,7 @@ use core::fmt;
 ///
 /// Eight is the paper's. Below four a table is no table; above fourteen it would have more entries than a quarter
 /// turn of a 16-bit angle has values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Width(u32);
 
 impl Width {

@@ -75,11 +75,24 @@ impl Rom {
     /// What a light gives at each inner product in [0, 1]: `scale · x^exponent`, Q0.16, of the middles.
     pub(crate) fn light(name: &'static str, width: Width, scale: u16, exponent: u32) -> Self {
         let word = |middle: i128| {
-            let power = (0..exponent).fold(ONE, |power, _| (power * middle) >> 60);
+            let power = power(middle, exponent);
             nearest_quotient(power * i128::from(scale), ONE) as u16
         };
         Self::new(name, middles(width).map(word))
     }
+}
+
+/// A value in [0, 1] to a whole power.
+fn power(value: i128, exponent: u32) -> i128 {
+    let (mut power, mut square, mut left) = (ONE, value, exponent);
+    while left > 0 {
+        if left & 1 == 1 {
+            power = (power * square) >> 60;
+        }
+        square = (square * square) >> 60;
+        left >>= 1;
+    }
+    power
 }
 
 /// The mean of the arc sines at both ends of each interval of [0, 1], in `steps` of a quarter turn.

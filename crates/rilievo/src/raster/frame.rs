@@ -3,7 +3,8 @@
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::mip::MipChain;
-use crate::raster::reference::{Baked, Exact, Interpolated, Table};
+use crate::polar::BumpFrame;
+use crate::raster::reference::{Baked, Exact, Interpolated, Polar, Table};
 use crate::raster::scene::{Detail, Method, Object, Scene};
 use crate::raster::texture::TextureFilter;
 use crate::raster::vectors::Interpolation;
@@ -14,6 +15,7 @@ pub(super) enum Shading<'a> {
     Exact(Exact<'a>),
     Interpolated(Interpolated<'a>),
     Static(Baked<'a>),
+    Polar(Polar<'a>),
 }
 
 /// A scene whose tables are lit: ready to be drawn, as often as wanted.
@@ -43,6 +45,7 @@ pub(super) fn shading<'a>(scene: &Scene<'_>, object: &'a Object<'a>, method: Met
         Method::Table => Ok(Shading::Table(Table::new(object, &lighting, eye)?)),
         Method::Exact => Ok(Shading::Exact(Exact::new(object, lighting, eye)?)),
         Method::Static => Ok(Shading::Static(Baked::new(object)?)),
+        Method::Polar { unit, width } => Polar::new((unit, width), object, lighting, eye).map(Shading::Polar),
         Method::Linear => interpolated(Interpolation::Linear, lighting),
         Method::Normalized => interpolated(Interpolation::Normalized, lighting),
         Method::Quadratic { midpoints, order } => interpolated(Interpolation::Quadratic { midpoints, order }, lighting),
@@ -55,7 +58,12 @@ pub(super) fn check(object: &Object<'_>) -> Result<()> {
         let remedy = "maps need a mesh with UVs; unwrap it first";
         return Err(Error::Missing { what: "texture coordinates", remedy });
     }
-    if matches!(object.detail, Detail::Tangent { .. }) && object.mesh.tangents().is_empty() {
+    let in_texture = match object.detail {
+        Detail::Tangent { .. } => true,
+        Detail::Bump { map, .. } => map.frame() == BumpFrame::Texture,
+        _ => false,
+    };
+    if in_texture && object.mesh.tangents().is_empty() {
         let remedy = "a tangent-space map needs a mesh with tangents (Mesh::with_tangents)";
         return Err(Error::Missing { what: "tangents", remedy });
     }
@@ -65,6 +73,7 @@ pub(super) fn check(object: &Object<'_>) -> Result<()> {
         Detail::Baked(_) => return Ok(()),
         Detail::Tangent { normals, materials, .. } => highest_material(normals, materials)?,
         Detail::Object { normals, materials } => highest_material(normals, materials)?,
+        Detail::Bump { map, materials, .. } => highest_material(map.words(), materials)?,
         Detail::Indexed(map) => map.table().spans().last().map_or(0, |s| s.material),
     };
     if usize::from(highest) >= object.materials.len() {

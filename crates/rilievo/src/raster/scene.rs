@@ -8,6 +8,7 @@ use crate::indexed::QuantizedMap;
 use crate::light::{Blend, Layer, Lighting, LightingModel, Material, Shade};
 use crate::mip::MipChain;
 use crate::normal::{Normal, Object as ObjectSpace, Tangent, World};
+use crate::polar::{BumpVectorMap, UnitKind, Width};
 use crate::pose::Pose;
 use crate::raster::texture::Footprint;
 use crate::raster::vectors::{Midpoints, Order};
@@ -36,6 +37,15 @@ pub enum Detail<'a> {
     },
     /// A quantised object-space map: what [`Method::Table`] needs.
     Indexed(&'a QuantizedMap<ObjectSpace>),
+    /// A normal map in the words of a polar unit: what [`Method::Polar`] needs, unless the surface is smooth.
+    Bump {
+        /// The words, with their mip levels.
+        map: &'a BumpVectorMap,
+        /// How often the map repeats over the mesh's texture square, along u and v.
+        repeat: Vec2,
+        /// A material per texel, of the same levels; material 0 without it.
+        materials: Option<&'a MipChain<u8>>,
+    },
     /// No normals any more but light: what [`Method::Static`] draws, made by [`crate::raster::bake_light_map`].
     Baked(&'a MipChain<Shade>),
 }
@@ -129,6 +139,16 @@ pub enum Method {
         midpoints: Midpoints,
         /// Whether triangles may be linear.
         order: Order,
+    },
+    /// An integer model of a bump unit, to the bit: texels are looked up, lit by the unit, and the light is filtered.
+    ///
+    /// Takes a [`Detail::Bump`] map made for the unit or the mesh's own normals, and materials of ambient, Lambert and
+    /// Blinn-Phong layers, whose exponents are rounded to whole numbers.
+    Polar {
+        /// Which unit.
+        unit: UnitKind,
+        /// Address bits of its tables.
+        width: Width,
     },
 }
 

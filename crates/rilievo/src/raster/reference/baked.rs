@@ -41,7 +41,7 @@ pub fn bake_light_map(object: &Object<'_>, lighting: &Lighting<World>, eye: Vec3
             let entry = |&i: &u16| table.entries()[usize::from(i)];
             Ok(map.indices().levels().iter().map(|level| level.map(entry)).collect())
         }
-        Detail::Smooth | Detail::Tangent { .. } | Detail::Baked(_) => {
+        Detail::Smooth | Detail::Tangent { .. } | Detail::Baked(_) | Detail::Bump { .. } => {
             let remedy = "a light map is baked from an object-space map; bend a tangent-space map onto the mesh first";
             return Err(Error::Missing { what: "object-space normals", remedy });
         }

@@ -61,6 +61,7 @@ pub(in crate::raster) fn shade(shading: &Shading<'_>, fragment: &Fragment, sampl
         Shading::Table(table) => table.shade(fragment, sampling),
         Shading::Exact(exact) => exact.shade(fragment, sampling),
         Shading::Static(baked) => baked.shade(fragment, sampling),
+        Shading::Polar(polar) => polar.shade(fragment, sampling),
         // Vectors belong to a triangle; there are as many fields as triangles.
         Shading::Interpolated(_) => Shade::default(),
     }

@@ -24,8 +24,12 @@ impl<'a> Exact<'a> {
     /// # Errors
     /// [`Error::Missing`] if there are no normals.
     pub(in crate::raster) fn new(object: &Object<'a>, lighting: Lighting<ObjectSpace>, eye: Vec3) -> Result<Self> {
-        if matches!(object.detail, Detail::Baked(_)) {
-            let remedy = "a light map can only be drawn as it is (Method::Static)";
+        let remedy = match object.detail {
+            Detail::Baked(_) => Some("a light map can only be drawn as it is (Method::Static)"),
+            Detail::Bump { .. } => Some("a bump-vector map holds words for a unit (Method::Polar)"),
+            _ => None,
+        };
+        if let Some(remedy) = remedy {
             return Err(Error::Missing { what: "normals", remedy });
         }
         Ok(Self { detail: object.detail, materials: object.materials, lighting, eye })
@@ -48,7 +52,7 @@ impl<'a> Exact<'a> {
         let mut total = Shade::default();
         for part in gather(self.detail, fragment, sampling).iter() {
             let normal = match self.detail {
-                Detail::Smooth | Detail::Baked(_) => smooth,
+                Detail::Smooth | Detail::Baked(_) | Detail::Bump { .. } => smooth,
                 Detail::Tangent { .. } => frame.to_object(Normal::new_or(part.sum, Normal::Z)),
                 Detail::Object { .. } | Detail::Indexed(_) => Normal::new_or(part.sum, smooth),
             };
@@ -65,7 +69,7 @@ impl<'a> Exact<'a> {
 pub(super) fn gather(detail: Detail<'_>, fragment: &Fragment, sampling: Sampling) -> Parts {
     let mut parts = Parts::default();
     match detail {
-        Detail::Smooth | Detail::Baked(_) => parts.add(0, Vec3::ZERO, 1.0),
+        Detail::Smooth | Detail::Baked(_) | Detail::Bump { .. } => parts.add(0, Vec3::ZERO, 1.0),
         Detail::Tangent { normals, repeat, materials } => {
             let sampling = Sampling { repeat, ..sampling };
             gather_map(&mut parts, normals, materials, &fragment.footprint, sampling);

@@ -142,7 +142,7 @@ impl<'a> Interpolated<'a> {
 }
 
 /// Whether light and half vectors are all that a material needs.
-fn supported(material: &Material) -> bool {
+pub(super) fn supported(material: &Material) -> bool {
     material.layers().iter().all(|layer| {
         matches!(
             layer.model,
@@ -152,7 +152,7 @@ fn supported(material: &Material) -> bool {
 }
 
 /// What the material makes of light from everywhere.
-fn ambient(material: &Material, light: LinearRgb) -> Shade {
+pub(super) fn ambient(material: &Material, light: LinearRgb) -> Shade {
     material.layers().iter().fold(Shade::default(), |shade, layer| match layer.model {
         LightingModel::Ambient { color } => Shade { diffuse: shade.diffuse + light * color * layer.weight, ..shade },
         _ => shade,

@@ -4,6 +4,7 @@ mod baked;
 mod draw;
 mod exact;
 mod interpolated;
+mod polar;
 mod table;
 
 pub(super) use baked::Baked;
@@ -12,4 +13,5 @@ pub use draw::draw;
 pub(super) use draw::{ScreenTriangle, base_color, set_up, shade};
 pub(super) use exact::Exact;
 pub(super) use interpolated::Interpolated;
+pub(super) use polar::Polar;
 pub(super) use table::Table;

@@ -72,14 +72,15 @@ impl<'a> Maps<'a> {
 pub(super) fn materials_map<'a>(detail: &Detail<'a>) -> Option<Map<'a>> {
     match *detail {
         Detail::Tangent { materials, .. } | Detail::Object { materials, .. } => materials.map(Map::Materials),
-        Detail::Smooth | Detail::Indexed(_) | Detail::Baked(_) => None,
+        // Units read their words from the map itself.
+        Detail::Smooth | Detail::Indexed(_) | Detail::Baked(_) | Detail::Bump { .. } => None,
     }
 }
 
 /// The map of an object's fine normals.
 pub(super) fn detail_map<'a>(detail: &Detail<'a>) -> Option<Map<'a>> {
     match *detail {
-        Detail::Smooth => None,
+        Detail::Smooth | Detail::Bump { .. } => None,
         Detail::Tangent { normals, .. } => Some(Map::Tangent(normals)),
         Detail::Object { normals, .. } => Some(Map::Object(normals)),
         Detail::Indexed(map) => Some(Map::Indices(map.indices())),

@@ -1,0 +1,10 @@
+//! The polar bump units on this library's side: their maps, their words, their errors.
+//!
+//! The units themselves are integer models in a crate that knows nothing of this one.
+
+mod bump;
+pub(crate) mod encode;
+
+pub use bump::{BumpFrame, BumpVectorMap};
+pub(crate) use bump::{MOST_WORDS, bump_ports, words};
+pub use rilievo_polar::{LightTables, Model, Twist, UnitKind, Width};
