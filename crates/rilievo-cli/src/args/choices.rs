@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use rilievo::height::Filter;
 use rilievo::light::Blend;
+use rilievo::polar::{UnitKind, Width};
 use rilievo::quantize::{Dither, Effort};
 use rilievo::raster::vectors::{Midpoints, Order};
 use rilievo::raster::{Method, TextureFilter};
@@ -113,6 +114,8 @@ choice!(
         Normalized => MethodKind::Vectors,
         /// The vectors interpolated quadratically (see --order and --midpoints).
         Quadratic => MethodKind::Vectors,
+        /// An integer model of a bump unit in hardware, to the bit (see --unit and --table-bits).
+        Polar => MethodKind::Polar(UnitKind::E3),
     }
 );
 choice!(
@@ -171,11 +174,13 @@ pub(crate) enum MethodKind {
     Static,
     /// A tangent-space map, or the mesh's own normals.
     Vectors,
+    /// A map in the words of a unit, made of whatever there is.
+    Polar(UnitKind),
 }
 
 impl MethodArg {
-    /// The method, with the choices that are the quadratic method's.
-    pub(crate) fn with(self, order: OrderArg, midpoints: MidpointsArg) -> Method {
+    /// The method, with the choices that are the quadratic method's and the polar method's.
+    pub(crate) fn with(self, (order, midpoints): (OrderArg, MidpointsArg), (unit, width): (UnitKind, Width)) -> Method {
         match self {
             Self::Table => Method::Table,
             Self::Exact => Method::Exact,
@@ -183,6 +188,7 @@ impl MethodArg {
             Self::Linear => Method::Linear,
             Self::Normalized => Method::Normalized,
             Self::Quadratic => Method::Quadratic { midpoints: midpoints.into(), order: order.into() },
+            Self::Polar => Method::Polar { unit, width },
         }
     }
 

@@ -5,6 +5,7 @@ mod given;
 mod light;
 mod maps;
 mod model;
+mod unit;
 mod values;
 
 pub(crate) use choices::{
@@ -15,4 +16,5 @@ pub(crate) use given::Given;
 pub(crate) use light::{LightArgs, MaterialArgs, PointLightArgs};
 pub(crate) use maps::{DEFAULT_DEPTH, DEFAULT_GUTTER, HeightArgs, OntoArgs};
 pub(crate) use model::{Finish, ModelArg};
+pub(crate) use unit::{TableBitsArg, UnitArg};
 pub(crate) use values::{CameraArg, ColorArg, SizeArg, number, pair};

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::args::{
     CameraArg, ColorArg, Given, LightArgs, MaterialArgs, MethodArg, MidpointsArg, OrderArg, PointLightArgs,
-    SamplingArg, SizeArg, Turn,
+    SamplingArg, SizeArg, TableBitsArg, Turn, UnitArg,
 };
 use crate::batch::check_output;
 use crate::exit::{Outcome, remark, usage};
@@ -35,14 +35,16 @@ Examples:
   rilievo render vase --model metallic-roughness:1,0.35 --environment city.hdr --material 1,d0a040
   rilievo render vase --method exact --point-light -60,20,1.3,ffc080*2
   rilievo render torus:16x9 --normals waves_gl.png --repeat 6,2 --method quadratic
+  rilievo render sphere --normals waves_gl.png --method polar --unit published
   rilievo render scene.toml --size 1920x1080 --supersample 2        several objects; see docs/scenes.md
 
 A scene file says what is drawn; of the flags, those of the picture are taken over it: -o, --method, --order, --midpoints,
---sampling, --size, --camera, --background, --supersample, --antialias, --frames, --turn, --delay.
+--unit, --table-bits, --sampling, --size, --camera, --background, --supersample, --antialias, --frames, --turn, --delay.
 
 table and static look up an object-space map; exact takes any; linear, normalized and quadratic interpolate light and half
 vectors and take tangent-space maps, height maps (as flat normals: how a texture is stretched on the mesh is not seen), or the
-mesh's own normals.
+mesh's own normals. polar draws with the integer model of a bump unit in hardware, from any map; its lights are directional where the
+unit holds them in tables (kugler, e4d).
 
 The report: seconds_per_frame is a frame with its tables, table_seconds the tables alone, map_seconds what the renderer takes once to
 make the maps its own. Triangles that were left out are counted under skipped; --reference does not count them.
@@ -67,6 +69,12 @@ pub(crate) struct Args {
     /// Where the quadratic method's vectors in the middle of an edge come from.
     #[arg(long, value_enum, default_value_t = MidpointsArg::GramSchmidt)]
     midpoints: MidpointsArg,
+    /// The polar method's unit: blinn, peercy, kugler, kim, published, exact-z, e1, e2, e3, e4 or e4d.
+    #[arg(long, value_name = "UNIT", default_value = "e3")]
+    unit: UnitArg,
+    /// Address bits of its tables, 4 to 14.
+    #[arg(long, value_name = "A", default_value = "8")]
+    table_bits: TableBitsArg,
     /// How a pixel gathers texels.
     #[arg(long, value_enum, default_value_t = SamplingArg::Trilinear)]
     sampling: SamplingArg,
@@ -114,12 +122,14 @@ pub(crate) struct Args {
 }
 
 /// Flags that a scene file leaves to the command line, by their names in [`Given`].
-const PICTURE_FLAGS: [&str; 16] = [
+const PICTURE_FLAGS: [&str; 18] = [
     "surface",
     "output",
     "method",
     "order",
     "midpoints",
+    "unit",
+    "table_bits",
     "sampling",
     "size",
     "camera",
@@ -160,6 +170,8 @@ impl Args {
                 method: self.method,
                 order: self.order,
                 midpoints: self.midpoints,
+                unit: self.unit,
+                table_bits: self.table_bits,
                 sampling: self.sampling,
                 size: self.size,
                 background: self.background.map(|c| c.0),
@@ -183,6 +195,8 @@ impl Args {
         over(given.has("method"), own.method, &mut picture.method);
         over(given.has("order"), own.order, &mut picture.order);
         over(given.has("midpoints"), own.midpoints, &mut picture.midpoints);
+        over(given.has("unit"), own.unit, &mut picture.unit);
+        over(given.has("table_bits"), own.table_bits, &mut picture.table_bits);
         over(given.has("sampling"), own.sampling, &mut picture.sampling);
         over(given.has("size"), own.size, &mut picture.size);
         over(given.has("background"), own.background, &mut picture.background);
@@ -196,7 +210,7 @@ impl Args {
         if given.has("method") {
             // One file serves several methods: what is for another one is no mistake of the file's.
             spec.objects.iter_mut().for_each(|o| o.given.excuse(&["map_size", "gutter", "entries", "effort"]));
-            keys.excuse(&["order", "midpoints"]);
+            keys.excuse(&["order", "midpoints", "unit", "table_bits"]);
         }
         spec.picture.warn_of_unused(&keys);
         Ok(spec)

@@ -5,6 +5,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use rilievo::height::{HeightMap, to_normals};
 use rilievo::normal::{NormalMap, normal_levels};
+use rilievo::polar::{BumpVectorMap, Twist};
 use rilievo::quantize::{self, Effort, Options};
 use rilievo::sample::vase;
 use rilievo::surface::{Deflect, Deflected, Mesh, deflect_heights, deflect_normals};
@@ -103,7 +104,12 @@ impl Loader<'_> {
             let image = inputs::normals::<Tangent>(path, args.convention.into(), false)?;
             let mesh = args.surface.load(image.normals.size())?.with_tangents();
             let mesh = mesh.with_context(|| args.surface.stem())?;
-            if matches!(self.kind, MethodKind::Exact | MethodKind::Vectors) {
+            let as_it_is = match self.kind {
+                MethodKind::Exact | MethodKind::Vectors => true,
+                MethodKind::Polar(unit) => unit.twist() != Twist::Baked,
+                MethodKind::Table | MethodKind::Static => false,
+            };
+            if as_it_is {
                 return Ok((mesh, Source::Tangent { normals: image.normals, covered: image.covered }));
             }
             let options = args.onto.options(&args.surface, image.normals.size())?;
@@ -113,6 +119,11 @@ impl Loader<'_> {
         }
         if let Some(path) = &args.indexed {
             self.refuse_object_space("an index map")?;
+            if let MethodKind::Polar(_) = self.kind {
+                return Err(usage(
+                    "an index map holds no words of a polar unit; give the normal map or the height map it was made of",
+                ));
+            }
             let source = inputs::open(path)?;
             // For palettes made by other tools; our own files know.
             let import = ImportAs {
@@ -128,7 +139,7 @@ impl Loader<'_> {
         }
         let mesh = args.surface.load((1, 1))?;
         match self.kind {
-            MethodKind::Exact | MethodKind::Vectors => Ok((mesh, Source::Nothing)),
+            MethodKind::Exact | MethodKind::Vectors | MethodKind::Polar(_) => Ok((mesh, Source::Nothing)),
             MethodKind::Table | MethodKind::Static => {
                 let source = self.own_normals(&mesh)?;
                 Ok((mesh, source))
@@ -160,11 +171,8 @@ impl Loader<'_> {
                 args.surface.stem()
             )));
         }
-        let flat = HeightMap::new(Grid::filled(1, 1, 0.0)?, args.heights.depth)?;
         let size = args.onto.map_size.map_or(SMOOTH_SIZE, |s| (s.width, s.height));
-        let options = Deflect { gutter: args.onto.gutter, ..Deflect::new(size) };
-        let (filter, edges) = (args.heights.filter(), args.heights.edges());
-        let deflected = deflect_heights(mesh, &flat, None, filter, edges, &options, &self.progress)?;
+        let deflected = self.surface_normals(mesh, size)?;
         exit::remark(format!(
             "{}: no map; the mesh's own normals are looked up from one of {} x {} texels",
             args.surface.stem(),
@@ -172,6 +180,14 @@ impl Loader<'_> {
             size.1
         ));
         Ok(bent(deflected))
+    }
+
+    /// The mesh's own normals as a map of this size.
+    fn surface_normals(&self, mesh: &Mesh, size: (u32, u32)) -> Result<Deflected> {
+        let flat = HeightMap::new(Grid::filled(1, 1, 0.0)?, 1.0)?;
+        let options = Deflect { gutter: self.args.onto.gutter, ..Deflect::new(size) };
+        let (filter, edges) = (self.args.heights.filter(), self.args.heights.edges());
+        Ok(deflect_heights(mesh, &flat, None, filter, edges, &options, &self.progress)?)
     }
 
     fn refuse_object_space(&self, what: &str) -> Result<()> {
@@ -214,6 +230,10 @@ impl Loader<'_> {
             Source::Tangent { normals, covered } => {
                 let materials = fitted(materials, normals.size(), "normal map")?;
                 let levels = normal_levels(normals, materials, covered.as_ref())?;
+                if let MethodKind::Polar(unit) = self.kind {
+                    let map = BumpVectorMap::from_tangent(unit, &levels.normals)?;
+                    return Ok((OwnedDetail::Bump { map, repeat, materials: levels.materials }, None));
+                }
                 Ok((OwnedDetail::Tangent { levels, repeat }, None))
             }
             Source::Object { normals, covered } => {
@@ -221,7 +241,15 @@ impl Loader<'_> {
                 if self.kind == MethodKind::Table {
                     return self.quantized(&normals, covered.as_ref(), materials.as_ref());
                 }
-                Ok((OwnedDetail::Object { levels: normal_levels(normals, materials, covered.as_ref())? }, None))
+                let levels = normal_levels(normals, materials, covered.as_ref())?;
+                if let MethodKind::Polar(unit) = self.kind {
+                    let surface = self.surface_normals(mesh, levels.normals.base().size())?;
+                    let surface = normal_levels(surface.normals, None, Some(&surface.covered))?;
+                    let map = BumpVectorMap::from_object(unit, &levels.normals, &surface.normals)?;
+                    let repeat = [1.0, 1.0];
+                    return Ok((OwnedDetail::Bump { map, repeat, materials: levels.materials }, None));
+                }
+                Ok((OwnedDetail::Object { levels }, None))
             }
         }
     }

@@ -8,6 +8,7 @@ use clap::Args;
 use glam::Vec2;
 use rilievo::light::Material;
 use rilievo::normal::NormalLevels;
+use rilievo::polar::{BumpVectorMap, Twist};
 use rilievo::raster::{BaseColor, Detail};
 use rilievo::sample::vase;
 use rilievo::surface::Mesh;
@@ -101,6 +102,7 @@ enum OwnedDetail {
     Tangent { levels: NormalLevels<Tangent>, repeat: [f32; 2] },
     Object { levels: NormalLevels<Object> },
     Indexed(Box<QuantizedMap<Object>>),
+    Bump { map: BumpVectorMap, repeat: [f32; 2], materials: Option<MipChain<u8>> },
 }
 
 impl Relief {
@@ -117,6 +119,9 @@ impl Relief {
                 Detail::Object { normals: &levels.normals, materials: levels.materials.as_ref() }
             }
             OwnedDetail::Indexed(map) => Detail::Indexed(map),
+            OwnedDetail::Bump { map, repeat, materials } => {
+                Detail::Bump { map, repeat: Vec2::from_array(*repeat), materials: materials.as_ref() }
+            }
         }
     }
 
@@ -133,6 +138,7 @@ impl Relief {
             OwnedDetail::Tangent { levels, .. } => highest(&levels.materials),
             OwnedDetail::Object { levels } => highest(&levels.materials),
             OwnedDetail::Indexed(map) => map.table().spans().last().map(|s| s.material),
+            OwnedDetail::Bump { materials, .. } => highest(materials),
         };
         usize::from(highest.unwrap_or(0)) + 1
     }
@@ -167,6 +173,8 @@ impl ReliefArgs {
         let bent = match kind {
             MethodKind::Vectors => false,
             MethodKind::Exact => self.height.is_some() || vase,
+            // The mesh's own normals are, with whatever map there is.
+            MethodKind::Polar(unit) => self.height.is_some() || vase || (tangent && unit.twist() == Twist::Baked),
             MethodKind::Table | MethodKind::Static => self.height.is_some() || has_no_map || tangent,
         };
         if !bent {

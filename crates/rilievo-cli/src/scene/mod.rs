@@ -12,7 +12,9 @@ use rilievo::light::Blend;
 use rilievo::raster::{Method, TextureFilter};
 use rilievo::{LinearRgb, Pose};
 
-use crate::args::{Given, MethodArg, MidpointsArg, OrderArg, SamplingArg, SizeArg, Turn};
+use crate::args::{
+    Given, MethodArg, MethodKind, MidpointsArg, OrderArg, SamplingArg, SizeArg, TableBitsArg, Turn, UnitArg,
+};
 use crate::relief::ReliefArgs;
 
 pub(crate) use camera::CameraSpec;
@@ -54,6 +56,8 @@ pub(crate) struct PictureSpec {
     pub(crate) method: MethodArg,
     pub(crate) order: OrderArg,
     pub(crate) midpoints: MidpointsArg,
+    pub(crate) unit: UnitArg,
+    pub(crate) table_bits: TableBitsArg,
     pub(crate) sampling: SamplingArg,
     pub(crate) size: SizeArg,
     /// Transparent without it.
@@ -73,7 +77,15 @@ pub(crate) struct PictureSpec {
 impl PictureSpec {
     /// The library's name of the method.
     pub(crate) fn method(&self) -> Method {
-        self.method.with(self.order, self.midpoints)
+        self.method.with((self.order, self.midpoints), (self.unit.0, self.table_bits.0))
+    }
+
+    /// What the method needs of an object's normals.
+    pub(crate) fn kind(&self) -> MethodKind {
+        match self.method.into() {
+            MethodKind::Polar(_) => MethodKind::Polar(self.unit.0),
+            kind => kind,
+        }
     }
 
     /// How a pixel gathers texels.
@@ -90,6 +102,9 @@ impl PictureSpec {
             given.unused(&["order", "midpoints"], "they are for the quadratic method");
         } else if self.order == OrderArg::Linear {
             given.unused(&["midpoints"], "linear polynomials have no midpoints");
+        }
+        if self.method != MethodArg::Polar {
+            given.unused(&["unit", "table_bits"], "they are for the polar method");
         }
     }
 }

@@ -39,12 +39,13 @@ impl<'s> Stage<'s> {
     /// # Errors
     /// Usage errors where the method cannot draw what is given, errors of files and of the library; they name the object.
     pub(crate) fn load(spec: &'s SceneSpec) -> Result<Self> {
-        let kind = MethodKind::from(spec.picture.method);
+        let kind = spec.picture.kind();
         let load = |object: &ObjectSpec| {
             let relief = object.relief.load(kind, &object.given)?;
             let default = |m| relief.default_materials.material(m);
             let materials = object.materials.resolve(relief.material_count(), default);
-            if kind == MethodKind::Vectors && !materials.iter().all(takes_vectors) {
+            let of_vectors = matches!(kind, MethodKind::Vectors | MethodKind::Polar(_));
+            if of_vectors && !materials.iter().all(takes_vectors) {
                 let method = spec.picture.method.name();
                 return Err(usage(format!(
                     "the {method} method lights materials of ambient, Lambert and Blinn-Phong layers only; \

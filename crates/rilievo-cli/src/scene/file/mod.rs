@@ -15,10 +15,13 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use glam::Vec3;
+use rilievo::polar::{UnitKind, Width};
 
 use self::section::{Section, Text};
 use super::{CameraSpec, PictureSpec, SceneSpec};
-use crate::args::{ColorArg, Given, MethodArg, MidpointsArg, OrderArg, SamplingArg, SizeArg, Turn};
+use crate::args::{
+    ColorArg, Given, MethodArg, MidpointsArg, OrderArg, SamplingArg, SizeArg, TableBitsArg, Turn, UnitArg,
+};
 use crate::batch::stem;
 use crate::exit::BadInput;
 
@@ -125,6 +128,8 @@ fn default_picture() -> PictureSpec {
         method: MethodArg::Table,
         order: OrderArg::Auto,
         midpoints: MidpointsArg::GramSchmidt,
+        unit: UnitArg(UnitKind::E3),
+        table_bits: TableBitsArg(Width::PAPER),
         sampling: SamplingArg::Trilinear,
         size: SizeArg { width: 768, height: 768 },
         background: None,
@@ -144,6 +149,11 @@ fn picture(mut section: Section<'_>) -> Result<(PictureSpec, Given)> {
         method: section.choice("method")?.unwrap_or(default.method),
         order: section.choice("order")?.unwrap_or(default.order),
         midpoints: section.choice("midpoints")?.unwrap_or(default.midpoints),
+        unit: section.parsed("unit")?.unwrap_or(default.unit),
+        table_bits: section
+            .whole("table_bits", Width::RANGE)?
+            .and_then(|bits| Width::new(bits).ok())
+            .map_or(default.table_bits, TableBitsArg),
         sampling: section.choice("sampling")?.unwrap_or(default.sampling),
         size: section.size("size")?.unwrap_or(default.size),
         background: section.parsed::<ColorArg>("background")?.map(|c| c.0),
@@ -154,7 +164,7 @@ fn picture(mut section: Section<'_>) -> Result<(PictureSpec, Given)> {
         delay: section.whole("delay", 0..=65_535)?.map_or(default.delay, |ms| ms as u16),
         reference: false,
     };
-    let given = section.given(&["order", "midpoints", "turn", "delay"].map(|key| (key, key)));
+    let given = section.given(&["order", "midpoints", "unit", "table_bits", "turn", "delay"].map(|key| (key, key)));
     section.finish()?;
     Ok((picture, given))
 }
