@@ -84,6 +84,11 @@ impl Lamp {
 pub(crate) struct Surroundings(Option<Arc<Environment>>);
 
 impl LightSpec {
+    /// Whether any light has a place rather than a direction.
+    pub(crate) fn has_near_lamps(&self) -> bool {
+        self.lamps.iter().any(|lamp| !matches!(lamp, Lamp::Side(_)))
+    }
+
     /// Reads the environment, and tells of what plays no part: the environment, if nothing mirrors it.
     pub(crate) fn surroundings(&self, mirrors: bool) -> Result<Surroundings> {
         if self.environment.is_none() {

@@ -40,6 +40,14 @@ impl<'s> Stage<'s> {
     /// Usage errors where the method cannot draw what is given, errors of files and of the library; they name the object.
     pub(crate) fn load(spec: &'s SceneSpec) -> Result<Self> {
         let kind = spec.picture.kind();
+        if let MethodKind::Polar(unit) = kind
+            && unit.is_distant()
+            && spec.light.has_near_lamps()
+        {
+            return Err(usage(format!(
+                "the {unit} unit holds directions of light in tables; give it directional lights, or take another unit"
+            )));
+        }
         let load = |object: &ObjectSpec| {
             let relief = object.relief.load(kind, &object.given)?;
             let default = |m| relief.default_materials.material(m);

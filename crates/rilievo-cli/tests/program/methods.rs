@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::runner::Room;
 
-const METHODS: [&str; 6] = ["table", "exact", "static", "linear", "normalized", "quadratic"];
+const METHODS: [&str; 7] = ["table", "exact", "static", "linear", "normalized", "quadratic", "polar"];
 
 /// A bumpy ring, coarse enough for interpolation to show.
 const RING: &str = "render torus:16x9 --normals n.png --repeat 6,3 --size 240x180 --camera 20,35 --background 202428";
@@ -17,7 +17,8 @@ fn each_method_resembles_the_exact_one() {
         let said = room.run(&format!("{RING} --method {method} -o {method}.png --json")).ok().json();
         assert_eq!((said["method"].as_str(), said["renderer"].as_str()), (Some(method), Some("tiles")));
     }
-    for (method, psnr) in [("table", 34), ("static", 36), ("linear", 32), ("normalized", 40), ("quadratic", 42)] {
+    let bars = [("table", 34), ("static", 36), ("linear", 32), ("normalized", 40), ("quadratic", 42), ("polar", 30)];
+    for (method, psnr) in bars {
         room.run(&format!("compare exact.png {method}.png --as picture --min-psnr {psnr}")).ok();
         assert!(room.read("exact.png") != room.read(&format!("{method}.png")), "{method}");
     }
@@ -74,6 +75,42 @@ fn the_quadratic_method_has_orders_and_midpoints() {
     room.run(&format!("{RING} --order linear --midpoints frames"))
         .warns(&["--order: not used", "--midpoints: not used"]);
     room.run(&format!("{RING} --method quadratic --order linear --midpoints frames")).warns(&["--midpoints: not used"]);
+}
+
+#[test]
+fn polar_units_take_any_map_and_differ_as_they_should() {
+    let room = Room::new();
+    room.bump("hill.png");
+    room.bump_normals("n.png");
+    room.run("normal hill.png --depth 0.1 --onto sphere --map-size 256 -o o.png").ok();
+    room.run("quantize o.png --space object -n 64 -o o.ktx2").ok();
+    for map in ["--normals n.png", "--height hill.png --depth 0.1", "--normals o.png --space object", ""] {
+        let shot = format!("render sphere {map} --size 128 --sampling nearest --background 404040");
+        room.run(&format!("{shot} --method exact -o exact.png")).ok();
+        for (unit, psnr) in [("e1", 32), ("e3", 32), ("kim", 32), ("peercy", 32)] {
+            let said = room.run(&format!("{shot} --method polar --unit {unit} -o {unit}.png --json")).ok().json();
+            assert_eq!(said["method"], "polar");
+            room.run(&format!("compare exact.png {unit}.png --as picture --min-psnr {psnr}")).ok();
+        }
+        // The published rotation is wrong, and shows it.
+        room.run(&format!("{shot} --method polar --unit published -o p.png")).ok();
+        room.run("compare exact.png p.png --as picture --min-psnr 32").fails(1, &[]);
+    }
+    let shot = "render sphere --normals n.png --size 64 --method polar -o p.png";
+    room.run(&format!("{shot} --unit e3 --table-bits 4")).ok();
+    let coarse = room.read("p.png");
+    room.run(&format!("{shot} --unit e3 --table-bits 12")).ok();
+    assert!(coarse != room.read("p.png"));
+    room.run(&format!("{shot} --unit e5")).fails(2, &["'e5'", "published", "e4d"]);
+    for bits in [3, 15] {
+        room.run(&format!("{shot} --table-bits {bits}")).fails(2, &["4 to 14"]);
+    }
+    room.run(&format!("{shot} --model chrome")).fails(2, &["polar", "Blinn-Phong"]);
+    let point = "--point-light -60,20,1.3,ffc080*2";
+    room.run(&format!("{shot} --unit e4d {point}")).fails(2, &["e4d"]);
+    room.run(&format!("{shot} --unit e4 {point}")).ok();
+    room.run("render sphere --indexed o.ktx2 --method polar --size 64").fails(2, &["index map", "normal map"]);
+    room.run("render sphere --method exact --size 64 --unit e1 -o s.png").warns(&["--unit: not used"]);
 }
 
 #[test]
