@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::stroke::cubic;
-use super::turn;
+use crate::sample::turn;
 use crate::surface::MeshParts;
 
 /// Height of the strip of islands below the vase's part of the map, as a map length.

@@ -2,7 +2,7 @@
 
 use super::handle;
 use super::meander;
-use super::noise::smoothstep;
+use crate::sample::noise::smoothstep;
 use super::ornament::{self, Ornament};
 use super::profile::Profile;
 use super::stroke::Motif;

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::handle;
 use super::layout::map_length;
 use super::profile::{PIECES, Point, Profile};
-use super::turn;
+use crate::sample::turn;
 use crate::surface::{Mesh, MeshParts};
 use crate::{Error, Result};
 

@@ -18,11 +18,9 @@ mod layout;
 mod maps;
 mod meander;
 mod mesh;
-mod noise;
 mod ornament;
 mod profile;
 mod stroke;
-mod turn;
 
 pub use maps::{VaseMaps, maps};
 pub use mesh::{DEFAULT_SEGMENTS, mesh};

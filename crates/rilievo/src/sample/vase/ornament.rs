@@ -1,7 +1,7 @@
 //! The ornaments of the friezes, drawn in cells of height 1.
 
 use super::stroke::{Pen, Point, cubic};
-use super::turn;
+use crate::sample::turn;
 
 /// A figure and the lines engraved into it.
 #[derive(Debug, Clone, Default)]

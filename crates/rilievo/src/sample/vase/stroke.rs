@@ -3,7 +3,7 @@
 //! One primitive is enough for palmettes, lotus flowers, spirals, tongues and rays, and its distance gives crisp
 //! materials, antialiased colours and bevels of a fixed width from the same number, at any resolution.
 
-use super::turn;
+use crate::sample::turn;
 
 /// A point in an ornament's cell: x to the right, y up.
 pub(super) type Point = [f32; 2];

@@ -20,13 +20,13 @@ fn lattice(x: i32, y: i32, z: i32) -> f32 {
 }
 
 /// 0 below `a`, 1 above `b`, the cubic between; falls if b < a.
-pub(super) fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
+pub(crate) fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
     let t = ((x - a) / (b - a)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
 /// `a` at 0, `b` at 1.
-pub(super) fn mix(a: f32, b: f32, t: f32) -> f32 {
+pub(crate) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
@@ -39,16 +39,26 @@ fn cell(x: f32) -> (i32, f32) {
 }
 
 /// Value noise on a surface in [−1, 1): one lattice value per unit, `period` units around in x.
-pub(super) fn surface_noise(x: f32, y: f32, period: u32, seed: i32) -> f32 {
+pub(crate) fn surface_noise(x: f32, y: f32, period: u32, seed: i32) -> f32 {
+    lattice_noise(x, y, |ix, iy| lattice(ix.rem_euclid(period as i32), iy, seed))
+}
+
+/// Value noise in [−1, 1) that repeats after `period` units in x and in y; whole places have a lattice's value.
+pub(crate) fn tile_noise(x: f32, y: f32, period: [u32; 2], seed: i32) -> f32 {
+    let [across, down] = period.map(|p| p as i32);
+    lattice_noise(x, y, |ix, iy| lattice(ix.rem_euclid(across), iy.rem_euclid(down), seed))
+}
+
+fn lattice_noise(x: f32, y: f32, value: impl Fn(i32, i32) -> f32) -> f32 {
     let ((ix, tx), (iy, ty)) = (cell(x), cell(y));
-    let at = |dx: i32, dy: i32| lattice((ix + dx).rem_euclid(period as i32), iy + dy, seed);
+    let at = |dx: i32, dy: i32| value(ix + dx, iy + dy);
     mix(mix(at(0, 0), at(1, 0), tx), mix(at(0, 1), at(1, 1), tx), ty)
 }
 
 /// Octaves of [`surface_noise`], each of half the size and half the height; about [−1, 1].
 ///
 /// `u` is 0 … 1 around, `y` down in the same length, and features are `stretch` times longer around than down.
-pub(super) fn brush(u: f32, y: f32, period: u32, stretch: f32, octaves: u32, seed: i32) -> f32 {
+pub(crate) fn brush(u: f32, y: f32, period: u32, stretch: f32, octaves: u32, seed: i32) -> f32 {
     let (mut sum, mut gain, mut period) = (0.0, 0.5, period);
     for octave in 0..octaves {
         let frequency = period as f32;
@@ -70,7 +80,7 @@ fn solid_noise(p: [f32; 3]) -> f32 {
 /// Octaves of noise in space with features of `size`, each octave half the size and half the height; about [−1, 1].
 ///
 /// Octaves too fine for texels of size `texel` are faded out: they could only alias.
-pub(super) fn solid(p: [f32; 3], size: f32, octaves: u32, texel: f32, seed: u32) -> f32 {
+pub(crate) fn solid(p: [f32; 3], size: f32, octaves: u32, texel: f32, seed: u32) -> f32 {
     let (mut sum, mut gain, mut frequency) = (0.0, 0.5, 1.0 / size);
     for octave in 0..octaves {
         let visible = smoothstep(1.0, 0.5, frequency * texel);

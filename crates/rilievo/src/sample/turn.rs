@@ -1,7 +1,7 @@
 //! Sine and cosine with the same bits on every machine, because the maps end up in files.
 
 /// (sin, cos) of `turns` full turns. Class A: Taylor series within an eighth of a turn, error below 1e-9.
-pub(super) fn sin_cos(turns: f64) -> (f32, f32) {
+pub(crate) fn sin_cos(turns: f64) -> (f32, f32) {
     let quarter = (turns * 4.0).round();
     let x = (turns - quarter * 0.25) * std::f64::consts::TAU;
     let q = x * x;
