@@ -23,6 +23,9 @@ const TARINI: &str = "M. Tarini, P. Cignoni, C. Rocchini, R. Scopigno: Real Time
 const HAST: &str =
     "A. Hast, T. Barrera, E. Bengtsson: Improved Bump Mapping by using Quadratic Vector Interpolation. 2002.";
 
+const LEE: &str = "S.-G. Lee, W.-C. Park, W.-J. Lee, S.-B. Yang, T.-D. Han: An Effective Bump Mapping Hardware Architecture Using Polar Coordinate \
+     System. Journal of Information Science and Engineering 23(2), 2007.";
+
 /// A table or figure of a paper, and how it is made again.
 pub(crate) struct Section {
     /// What it is called on the command line.
@@ -35,7 +38,7 @@ pub(crate) struct Section {
 }
 
 /// All sections, in the order of the page.
-pub(crate) const SECTIONS: [Section; 9] = {
+pub(crate) const SECTIONS: [Section; 11] = {
     use sections::*;
     const fn of(
         source: &'static str,
@@ -55,6 +58,8 @@ pub(crate) const SECTIONS: [Section; 9] = {
         of(TARINI, "dithering", "Tarini et al., figure 4: dithered normals", dithering::run),
         of(TARINI, "models", "Tarini et al., figures 5–7: lighting models", models::run),
         of(TARINI, "materials", "Tarini et al., figures 8–10: materials in one index map", materials::run),
+        of(LEE, "units", "Lee et al., table 1: what the units cost", units::run),
+        of(LEE, "bumps", "Lee et al., table 2 and figures 10–12: pictures by the units", bumps::run),
     ]
 };
 

@@ -7,4 +7,4 @@ pub(crate) mod encode;
 
 pub use bump::{BumpFrame, BumpVectorMap};
 pub(crate) use bump::{MOST_WORDS, bump_ports, words};
-pub use rilievo_polar::{LightTables, Model, Twist, UnitKind, Width};
+pub use rilievo_polar::{Frame, LightTables, Model, Twist, UnitCost, UnitKind, Width};

@@ -48,7 +48,10 @@ pub fn bricks(side: u32) -> Result<Covering> {
         let burnt = blend(dark, light, (0.5 + 0.45 * chance(5) + 0.25 * grain).clamp(0.0, 1.0));
         let body = blend(burnt, pale, 0.5 * smoothstep(0.45, 0.95, chance(6)));
         let shade = 1.0 - 0.35 * smoothstep(JOINT + 0.10, JOINT, edge);
-        (height, blend(mortar * (0.55 + 0.2 * rough(24, 7)), body * shade, smoothstep(JOINT - 0.01, JOINT + 0.02, edge)))
+        (
+            height,
+            blend(mortar * (0.55 + 0.2 * rough(24, 7)), body * shade, smoothstep(JOINT - 0.01, JOINT + 0.02, edge)),
+        )
     })
 }
 

@@ -1,5 +1,6 @@
 //! A file for each table or figure.
 
+pub(super) mod bumps;
 pub(super) mod dithering;
 pub(super) mod entries;
 pub(super) mod interpolation;
@@ -9,3 +10,4 @@ pub(super) mod models;
 pub(super) mod overhead;
 pub(super) mod setup;
 pub(super) mod torus;
+pub(super) mod units;

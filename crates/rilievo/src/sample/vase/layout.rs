@@ -2,10 +2,10 @@
 
 use super::handle;
 use super::meander;
-use crate::sample::noise::smoothstep;
 use super::ornament::{self, Ornament};
 use super::profile::Profile;
 use super::stroke::Motif;
+use crate::sample::noise::smoothstep;
 
 /// Length of the map's width on the vase: once around the widest place.
 pub(super) fn circumference() -> f32 {

@@ -1,12 +1,12 @@
 //! The maps of the vase, texel by texel.
 
 use super::layout::{Ground, Layout, Zone, circumference, map_length};
-use crate::sample::noise::{brush, mix, smoothstep, solid, surface_noise};
 use super::profile::Profile;
 use super::{CLAY, GLAZE, handle};
-use crate::sample::turn;
 use crate::color::LinearRgb;
 use crate::height::HeightMap;
+use crate::sample::noise::{brush, mix, smoothstep, solid, surface_noise};
+use crate::sample::turn;
 use crate::{Error, Grid, MaterialMap, Result, Rgba8, par};
 
 /// The maps of the vase, all of one size.
