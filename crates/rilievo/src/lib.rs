@@ -30,6 +30,7 @@ pub mod polar;
 pub mod pose;
 pub mod progress;
 pub mod quantize;
+mod random;
 pub mod raster;
 pub mod sample;
 mod simd;

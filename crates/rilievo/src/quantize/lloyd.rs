@@ -15,6 +15,7 @@ use super::seed::seed;
 use super::split_merge::split_merge;
 use super::tree::{LEAF, Tree};
 use crate::Progress;
+use crate::random::scramble;
 
 /// How many steps of what.
 #[derive(Debug, Clone, Copy)]
@@ -129,12 +130,4 @@ pub(super) fn shake(entries: &mut Entries, cells: &Cells, part: impl Fn(usize) -
             *entry = unit(aim).unwrap_or(*entry);
         }
     }
-}
-
-/// A number that looks random (the output function of SplitMix64: Steele, Lea and Flood 2014).
-pub(super) fn scramble(v: u64) -> u64 {
-    let v = v.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let v = (v ^ (v >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let v = (v ^ (v >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    v ^ (v >> 31)
 }

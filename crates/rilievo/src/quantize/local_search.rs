@@ -5,9 +5,10 @@
 
 use super::cells::Cells;
 use super::entries::Entries;
-use super::lloyd::{approach_means, scramble, shake};
+use super::lloyd::{approach_means, shake};
 use super::tree::squared;
 use crate::Progress;
+use crate::random::scramble;
 
 /// How hard to search.
 #[derive(Debug, Clone, Copy)]
