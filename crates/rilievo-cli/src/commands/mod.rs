@@ -4,6 +4,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod normal;
+pub(crate) mod polar;
 pub(crate) mod quantize;
 pub(crate) mod relight;
 pub(crate) mod render;

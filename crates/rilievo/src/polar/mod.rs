@@ -10,5 +10,7 @@ mod rotation;
 pub use bump::{BumpFrame, BumpVectorMap};
 pub(crate) use bump::{MOST_WORDS, bump_ports, words};
 pub use errors::{ErrorStats, LightSampling, PixelSampling, UnitErrors, rotation_errors, unit_errors};
-pub use rilievo_polar::{Frame, LightTables, Model, Twist, UnitCost, UnitKind, Width};
+pub use rilievo_polar::{
+    Cost, Direction, Frame, LightTables, Model, Port, Printed, Rom, Sample, StageCost, Twist, UnitCost, UnitKind, Width,
+};
 pub use rotation::{Polar, Rotation};
