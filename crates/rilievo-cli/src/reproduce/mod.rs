@@ -38,7 +38,7 @@ pub(crate) struct Section {
 }
 
 /// All sections, in the order of the page.
-pub(crate) const SECTIONS: [Section; 11] = {
+pub(crate) const SECTIONS: [Section; 13] = {
     use sections::*;
     const fn of(
         source: &'static str,
@@ -60,6 +60,8 @@ pub(crate) const SECTIONS: [Section; 11] = {
         of(TARINI, "materials", "Tarini et al., figures 8–10: materials in one index map", materials::run),
         of(LEE, "units", "Lee et al., table 1: what the units cost", units::run),
         of(LEE, "bumps", "Lee et al., table 2 and figures 10–12: pictures by the units", bumps::run),
+        of(LEE, "rotation", "Lee et al., equations (5)–(18): how far the rotation errs", rotation::run),
+        of(LEE, "accuracy", "Lee et al. and beyond: accuracy against cost", accuracy::run),
     ]
 };
 

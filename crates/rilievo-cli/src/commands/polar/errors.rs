@@ -18,9 +18,10 @@ Examples:
   rilievo polar errors e3 e4 --table-bits 6,8,10,12        accuracy against the width of the tables
   rilievo polar errors published --samples 2000000 --json
 
-Light, halfway vector and normal are uniform over the upper half of the sphere, and count where the vector is on the normal's side;
-bump vectors are uniform within --steepest degrees of the normal. Errors are of N'·L' and N'·H', between -1 and 1, and of light of
-reflectance 1. \"limit\" is what follows from the word lengths alone; \"-\" where the method itself errs.";
+Light, halfway vector and normal are uniform over the upper half of the sphere, and count where the
+vector is on the normal's side; bump vectors are uniform within --steepest degrees of the normal.
+Errors are of N'·L' and N'·H', between -1 and 1, and of light of reflectance 1. \"limit\" is what
+follows from the word lengths alone; \"-\" where the method itself errs.";
 
 /// Measure how far the units are from exact arithmetic on the same words.
 #[derive(Debug, clap::Args)]

@@ -19,14 +19,14 @@ use crate::exit::Outcome;
 
 const AFTER_HELP: &str = "\
 Examples:
-  rilievo polar table                          what each unit is built of, beside the paper's Table 1
-  rilievo polar errors e3 e4 --table-bits 6,8,10
+  rilievo polar table                                   what each unit is built of
+  rilievo polar errors e3 e4 --table-bits 6,8,10        how far it is from exact arithmetic
   rilievo polar vectors e3 --corners --count 20000 -o e3.txt
-  rilievo polar rom e3 -o rom                  the unit's tables for $readmemh
+  rilievo polar rom e3 -o rom                           its tables for $readmemh
   rilievo render sphere --height bricks.png --method polar --unit e3
 
-Units: blinn, peercy, kugler, kim (of other papers); published, exact-z (Lee et al.); e1, e2, e3, e4 (exact), e4d (exact, for
-distant lights).";
+Units: blinn, peercy, kugler, kim, of other papers; published, of Lee et al., and exact-z, the same
+with exact Z; e1, e2, e3, e4 are exact, e4d too, for distant lights.";
 
 /// Show what the polar bump units cost, how far they err, and what is in their tables.
 #[derive(Debug, clap::Args)]

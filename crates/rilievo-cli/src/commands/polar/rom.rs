@@ -17,8 +17,8 @@ Examples:
   rilievo polar rom e3 --table sine                one of them
   rilievo polar rom published -o rom               all of them, rom/published_sine.hex and so on
 
-A line is a word of 16 bits in hexadecimal, as Verilog's $readmemh reads it; the first is a comment. Tables of the light are the
-application's and not among them.";
+A line is a word of 16 bits in hexadecimal, as Verilog's $readmemh reads it; the first is a comment.
+Tables of the light are the application's and not among them.";
 
 /// List or write the tables of a unit.
 #[derive(Debug, clap::Args)]

@@ -10,11 +10,11 @@ use crate::args::TableBitsArg;
 const AFTER_HELP: &str = "\
 Examples:
   rilievo polar table
-  rilievo polar table --gates                      also mirrors, comparators and shifters, which the paper does not count
+  rilievo polar table --gates                      also what the paper does not count
   rilievo polar table --json --table-bits 10 | jq '.[] | {unit, total}'
 
-Counts come from the units' own data paths. Stages marked * are quoted from the paper, as their texts give no structure. Under
-\"paper\" is the paper's Table 1: multipliers, adders, look-up tables.";
+Counts come from the units' own data paths. Stages marked * are quoted from the paper, as their texts
+give no structure. Under \"paper\" is the paper's Table 1: multipliers/adders/look-up tables.";
 
 /// Count what each unit is built of, beside the paper's Table 1.
 #[derive(Debug, clap::Args)]

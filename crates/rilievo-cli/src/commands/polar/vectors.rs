@@ -15,8 +15,9 @@ Examples:
   rilievo polar vectors published --corners --count 20000 -o published.txt
   rilievo polar vectors e4d --light 120,40 --half 100,25
 
-A line is a pixel: the words of the unit's ports in their order, then N'·L' and N'·H', all 16 bits in hexadecimal. Lines that begin with
-// say what they are. Angles are binary, a turn is 2^16; numbers are Q2.14, slopes Q4.12, in two's complement.";
+A line is a pixel: the words of the unit's ports in their order, then N'·L' and N'·H', all 16 bits
+in hexadecimal. Lines that begin with // say what they are. Angles are binary, a turn is 2^16;
+numbers are Q2.14, slopes Q4.12, in two's complement.";
 
 /// Print test vectors for a unit: its words and its results.
 #[derive(Debug, clap::Args)]

@@ -7,7 +7,7 @@ const SIZE: [f64; 2] = [760.0, 400.0];
 /// Left, right, top and bottom edge of the axes.
 const AREA: [f64; 4] = [66.0, 732.0, 16.0, 348.0];
 /// The page has this many colours for lines.
-const COLORS: usize = 6;
+const COLORS: usize = 8;
 
 /// What an axis is divided by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,22 +50,29 @@ pub(crate) struct Series {
     points: Vec<[f64; 2]>,
     has_dots: bool,
     is_dashed: bool,
+    /// Named beside its first point instead of in the legend.
+    is_labelled: bool,
 }
 
 impl Series {
+    /// A single measured point with its name beside it.
+    pub(crate) fn point(name: impl Into<String>, point: [f64; 2]) -> Self {
+        Self { is_labelled: true, ..Self::measured(name, vec![point]) }
+    }
+
     /// Measured points: each has a dot.
     pub(crate) fn measured(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.into(), points, has_dots: true, is_dashed: false }
+        Self { name: name.into(), points, has_dots: true, is_dashed: false, is_labelled: false }
     }
 
     /// Many points, of which only the curve counts.
     pub(crate) fn curve(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.into(), points, has_dots: false, is_dashed: false }
+        Self { name: name.into(), points, has_dots: false, is_dashed: false, is_labelled: false }
     }
 
     /// What was not measured but computed: dashed.
     pub(crate) fn computed(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.into(), points, has_dots: false, is_dashed: true }
+        Self { name: name.into(), points, has_dots: false, is_dashed: true, is_labelled: false }
     }
 }
 
@@ -142,6 +149,10 @@ impl Plot {
             if !path.is_empty() {
                 put(format_args!("<path class=\"line s{color}{dashed}\" d=\"M{}\"/>\n", path.join("L")));
             }
+            if let Some([x, y]) = places.clone().next().filter(|_| series.is_labelled) {
+                let name = super::escape(&series.name);
+                put(format_args!("<text class=\"tick\" x=\"{:.1}\" y=\"{:.1}\">{name}</text>\n", x + 7.0, y - 5.0));
+            }
             for [x, y] in places.filter(|_| series.has_dots) {
                 put(format_args!("<circle class=\"dot s{color}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>\n"));
             }
@@ -153,8 +164,9 @@ impl Plot {
     /// Names of the series, in the corner where the fewest points are.
     fn add_legend(&self, x: &Laid, y: &Laid, put: &mut impl FnMut(std::fmt::Arguments<'_>)) {
         let [left, right, top, bottom] = AREA;
-        let widest = self.series.iter().map(|s| s.name.chars().count()).max().unwrap_or(0) as f64;
-        let size = [widest * 7.0 + 44.0, self.series.len() as f64 * 19.0 + 8.0];
+        let named = || self.series.iter().enumerate().filter(|(_, s)| !s.is_labelled);
+        let widest = named().map(|(_, s)| s.name.chars().count()).max().unwrap_or(0) as f64;
+        let size = [widest * 7.0 + 44.0, named().count() as f64 * 19.0 + 8.0];
         let corners = [
             [right - size[0], top],
             [left + 8.0, top],
@@ -167,9 +179,9 @@ impl Plot {
             all.filter(|p| inside(x.place(p[0]), 0) && inside(y.place(p[1]), 1)).count()
         };
         let [at_x, at_y] = corners.into_iter().min_by_key(hidden).unwrap_or(corners[0]);
-        for (i, series) in self.series.iter().enumerate() {
+        for (row, (i, series)) in named().enumerate() {
             let (color, dashed) = (i % COLORS, if series.is_dashed { " dashed" } else { "" });
-            let line = at_y + 14.0 + 19.0 * i as f64;
+            let line = at_y + 14.0 + 19.0 * row as f64;
             put(format_args!("<path class=\"line s{color}{dashed}\" d=\"M{at_x:.1} {line:.1}h26\"/>"));
             let (x, y, name) = (at_x + 34.0, line + 4.0, super::escape(&series.name));
             put(format_args!("<text x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>\n"));

@@ -1,5 +1,6 @@
 //! A file for each table or figure.
 
+pub(super) mod accuracy;
 pub(super) mod bumps;
 pub(super) mod dithering;
 pub(super) mod entries;
@@ -8,6 +9,7 @@ pub(super) mod lengths;
 pub(super) mod materials;
 pub(super) mod models;
 pub(super) mod overhead;
+pub(super) mod rotation;
 pub(super) mod setup;
 pub(super) mod torus;
 pub(super) mod units;
