@@ -1,6 +1,7 @@
 //! The developer's commands, each in a file of its own: `cargo xtask COMMAND`.
 //!
-//! This crate is built before anything else, so it depends on none of the others and on few crates.
+//! This crate is built before anything else, so it depends on few crates, and of the product's own only on the models of the polar
+//! units, which depend on none.
 #![forbid(unsafe_code)]
 #![expect(clippy::print_stderr, reason = "a tool for the terminal; stdout belongs to the programs it runs")]
 
@@ -10,6 +11,7 @@ mod demo;
 mod deny;
 mod hygiene;
 mod needs;
+mod rtl;
 mod run;
 mod skips;
 mod smoke;
@@ -40,6 +42,8 @@ enum Task {
     Hygiene,
     /// Check licences, duplicates and sources with cargo-deny, stricter than the hygiene step.
     Deny,
+    /// Check the hardware of the polar units against their models: tables, lint, replay, cost.
+    Rtl(rtl::Options),
     /// Measure against peers.
     Bench(bench::Options),
 }
@@ -52,6 +56,7 @@ fn main() -> ExitCode {
         Task::Bless => bless::run(),
         Task::Hygiene => hygiene::run(),
         Task::Deny => deny::run(),
+        Task::Rtl(options) => rtl::run(&options),
         Task::Bench(options) => bench::run(&options),
     };
     // Without a stack trace: what failed is another program or a file, not this one.

@@ -92,6 +92,22 @@ const TOOLS: &[Tool] = &[
         debian: Some("netpbm"),
         hint: "install netpbm",
     },
+    Tool {
+        name: "verilator",
+        programs: &["verilator"],
+        purpose: "simulates the hardware of the polar units",
+        without: Without::Skip,
+        debian: Some("verilator make g++"),
+        hint: "install verilator 5",
+    },
+    Tool {
+        name: "yosys",
+        programs: &["yosys"],
+        purpose: "counts what the hardware of the polar units is made of",
+        without: Without::Skip,
+        debian: Some("yosys"),
+        hint: "install yosys",
+    },
     // The peers of `cargo xtask bench raster`: nothing but that looks for them, so nobody gets them unasked.
     Tool {
         name: "lavapipe",

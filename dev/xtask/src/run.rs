@@ -2,6 +2,8 @@
 
 use anyhow::{Context, Result, bail};
 use std::ffi::OsStr;
+use std::fs::File;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// A program to run, from the root of the workspace.
@@ -39,6 +41,18 @@ impl Run {
     pub(crate) fn env(mut self, name: &str, value: impl AsRef<OsStr>) -> Self {
         self.shown = format!("{name}={:?} {}", value.as_ref(), self.shown);
         self.command.env(name, value);
+        self
+    }
+
+    /// Somewhere else than at the root of the workspace.
+    pub(crate) fn current_dir(mut self, folder: &Path) -> Self {
+        self.command.current_dir(folder);
+        self
+    }
+
+    /// With a file to read.
+    pub(crate) fn stdin(mut self, file: File) -> Self {
+        self.command.stdin(file);
         self
     }
 
@@ -86,7 +100,6 @@ pub(crate) fn is_ci() -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
 
     #[test]
     fn output_of_a_program() {

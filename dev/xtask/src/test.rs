@@ -2,7 +2,7 @@
 
 use crate::run::{Run, has_cargo_command, is_ci};
 use crate::skips::{SkipLog, VARIABLE};
-use crate::{hygiene, needs, smoke};
+use crate::{hygiene, needs, rtl, smoke};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::collections::BTreeSet;
@@ -39,6 +39,13 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "one-thread", what: "the library without rayon", tools: &[], slow: false, run: one_thread },
     Step { name: "docs", what: "documentation builds without a warning", tools: &[], slow: true, run: |_| docs() },
     Step { name: "hygiene", what: "the files themselves", tools: &["git"], slow: false, run: |_| hygiene::run() },
+    Step {
+        name: "hardware",
+        what: "the polar units' hardware against their models",
+        tools: &["verilator", "yosys"],
+        slow: false,
+        run: |_| rtl::run(&rtl::Options::default()),
+    },
     Step { name: "demo", what: "the real program, from end to end", tools: &[], slow: true, run: |_| smoke::run() },
 ];
 

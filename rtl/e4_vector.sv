@@ -1,0 +1,91 @@
+// Unit E4, one vector: its angles along and across the normal's meridian, then the inner product with the bump vector's. Latency 20.
+//
+// across = asin(y), along = atan2(x, z) - theta_N; the tangent x/cos(theta) is taken of positive numbers and the arc folded back.
+module e4_vector #(
+    parameter int A = 8
+) (
+    input  logic               clk,
+    input  logic        [15:0] phi,
+    input  logic        [15:0] theta,
+    input  logic        [15:0] phi_N,
+    input  logic        [15:0] theta_N,
+    input  logic        [15:0] bump_along,
+    input  logic        [15:0] bump_across,
+    output logic signed [15:0] product
+);
+  // Clocks 1 to 6.
+  logic signed [15:0] x, y;
+  projection #(.A(A)) plane (.clk, .phi, .theta, .phi_N, .x, .y);
+
+  // Clock 7: magnitudes, at most 1.
+  logic [14:0] width, height;
+  logic is_left, is_below;
+  always_ff @(posedge clk) begin
+    width <= 15'(x < 0 ? -x : x);
+    height <= 15'(y < 0 ? -y : y);
+    is_left <= x < 0;
+    is_below <= y < 0;
+  end
+
+  // Clocks 8 to 11: the angle across, with y's sign.
+  logic [15:0] arc_across, across;
+  logic is_below_late;
+  arc_sine #(.A(A)) of_height (.clk, .magnitude(height), .arc(arc_across));
+  delay #(.WIDTH(1), .CLOCKS(3)) of_below (.clk, .early(is_below), .late(is_below_late));
+  always_ff @(posedge clk) across <= is_below_late ? -arc_across : arc_across;
+
+  // Up to clock 7: the secant of theta, mirrored at 90°.
+  logic [15:0] theta_4;
+  delay #(.CLOCKS(4)) of_theta (.clk, .early(theta), .late(theta_4));
+  logic is_beyond_5, is_beyond_10;
+  /* verilator lint_off UNUSEDSIGNAL */ // Addresses are rounded down.
+  logic [14:0] acute;
+  /* verilator lint_on UNUSEDSIGNAL */
+  logic [A-1:0] secant_address;
+  logic [15:0] secant;
+  rom #(.A(A), .FILE("rom/secant.hex")) secants (.clk, .address(secant_address), .word(secant));
+  always_ff @(posedge clk) begin
+    is_beyond_5 <= theta_4 > 16'h4000;
+    acute <= 15'(theta_4 > 16'h4000 ? 16'h8000 - theta_4 : theta_4);
+    secant_address <= acute[14] ? '1 : acute[13-:A];
+  end
+  delay #(.WIDTH(1), .CLOCKS(5)) of_beyond (.clk, .early(is_beyond_5), .late(is_beyond_10));
+
+  // Clock 8: the tangent, Q6.10. Clock 9: its logarithm. Clock 10: its arc.
+  /* verilator lint_off UNUSEDSIGNAL */ // Quotients are rounded down.
+  logic [30:0] quotient;
+  /* verilator lint_on UNUSEDSIGNAL */
+  logic [A-1:0] arc_address_now, arc_address;
+  logic [15:0] arc_word;
+  log_address #(.A(A)) of_quotient (.quotient(quotient[30:14]), .address(arc_address_now));
+  rom #(.A(A), .FILE("rom/log_arc_tangent.hex")) arcs (.clk, .address(arc_address), .word(arc_word));
+  always_ff @(posedge clk) begin
+    quotient <= width * secant;
+    arc_address <= arc_address_now;
+  end
+
+  // Clock 11: beyond 90°. Clock 12: left of the meridian. Clock 13: rotation, by a subtraction.
+  logic is_on_meridian_10, is_left_11;
+  delay #(.WIDTH(1), .CLOCKS(3)) of_zero (.clk, .early(width == 15'd0), .late(is_on_meridian_10));
+  delay #(.WIDTH(1), .CLOCKS(4)) of_left (.clk, .early(is_left), .late(is_left_11));
+  logic [15:0] arc, theta_N_12, along_11, along_12, along;
+  assign arc = is_on_meridian_10 ? 16'd0 : arc_word;
+  delay #(.CLOCKS(12)) of_theta_N (.clk, .early(theta_N), .late(theta_N_12));
+  always_ff @(posedge clk) begin
+    along_11 <= is_beyond_10 ? 16'h8000 - arc : arc;
+    along_12 <= is_left_11 ? -along_11 : along_11;
+    along <= along_12 - theta_N_12;
+  end
+
+  // Clock 14: sums and differences. Clocks 15 to 20: the inner product.
+  logic [15:0] across_late, bump_along_late, bump_across_late, sum, difference, turn;
+  delay #(.CLOCKS(2)) of_across (.clk, .early(across), .late(across_late));
+  delay #(.CLOCKS(13)) of_bump_along (.clk, .early(bump_along), .late(bump_along_late));
+  delay #(.CLOCKS(13)) of_bump_across (.clk, .early(bump_across), .late(bump_across_late));
+  always_ff @(posedge clk) begin
+    sum <= bump_across_late + across_late;
+    difference <= bump_across_late - across_late;
+    turn <= bump_along_late - along;
+  end
+  inner_product #(.A(A), .MERIDIAN(1)) inner (.clk, .sum, .difference, .turn, .value(product));
+endmodule
