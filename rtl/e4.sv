@@ -1,4 +1,4 @@
-// Unit E4: exact inner products N'·L' and N'·H' with two multipliers a vector, one pair a clock. Latency 21.
+// Unit E4: exact inner products N'·L' and N'·H' with two multipliers a vector, one pair a clock. Latency 22.
 //
 // Angles are binary (a turn is 2^16), products Q2.14. The bump vector is given by its angles along and across the normal's meridian.
 module e4 #(
@@ -32,5 +32,5 @@ module e4 #(
       .clk, .phi(half_phi), .theta(half_theta), .phi_N(normal_phi), .theta_N(normal_theta),
       .bump_along(xi), .bump_across(eta), .product(product_H)
   );
-  valid_chain #(.CLOCKS(21)) valid (.clk, .reset, .valid_in, .valid_out);
+  valid_chain #(.CLOCKS(22)) valid (.clk, .reset, .valid_in, .valid_out);
 endmodule

@@ -1,5 +1,5 @@
 // The published unit with its equations mended, one vector: rotation by angles, eqs. (5)-(9), (16)-(18), then the inner product of
-// eqs. (24), (25). Latency 30.
+// eqs. (24), (25). Latency 31.
 module published_vector #(
     parameter int A = 8
 ) (
@@ -60,15 +60,15 @@ module published_vector #(
     cosecant_address <= rest_of_quarter[14] ? '1 : rest_of_quarter[13-:A];
   end
 
-  // Clock 18: y/cos Z and y/sin Z, Q6.10. Clock 19: addresses. Clock 20: proportion and arc.
+  // Clock 18: y/cos Z and y/sin Z, Q6.10. Clocks 19 and 20: addresses. Clock 21: proportion and arc.
   logic [14:0] height_17;
   delay #(.WIDTH(15), .CLOCKS(10)) of_height (.clk, .early(height), .late(height_17));
   /* verilator lint_off UNUSEDSIGNAL */ // Quotients are rounded down.
   logic [30:0] over_cosine, over_sine;
   /* verilator lint_on UNUSEDSIGNAL */
-  logic [A-1:0] proportion_address, arc_address_now, arc_address;
+  logic [A-1:0] proportion_address_19, proportion_address, arc_address;
   logic [15:0] proportion_word, arc_word;
-  log_address #(.A(A)) of_quotient (.quotient(over_sine[30:14]), .address(arc_address_now));
+  log_address #(.A(A)) of_quotient (.clk, .quotient(over_sine[30:14]), .address(arc_address));
   rom #(.A(A), .FILE("rom/proportion.hex")) proportions (.clk, .address(proportion_address), .word(proportion_word));
   rom #(.A(A), .FILE("rom/log_arc_tangent.hex")) arcs (.clk, .address(arc_address), .word(arc_word));
   // Q6.10 with four zeros below it is Q2.14: what is 1 and more takes the last word.
@@ -79,36 +79,36 @@ module published_vector #(
   always_ff @(posedge clk) begin
     over_cosine <= height_17 * secant;
     over_sine <= height_17 * cosecant;
-    proportion_address <= over_cosine[30:24] != 0 ? '1 : fraction[13-:A];
-    arc_address <= arc_address_now;
+    proportion_address_19 <= over_cosine[30:24] != 0 ? '1 : fraction[13-:A];
+    proportion_address <= proportion_address_19;
   end
 
-  // Clock 21: the arc, behind or not; what is left of the quarter. Clock 22: azimuth's sign; the part of the rest. Clock 23: angles.
-  logic is_flat_20, is_behind_20, is_below_21;
-  logic [15:0] size_20, size_22;
-  delay #(.WIDTH(1), .CLOCKS(13)) of_flat (.clk, .early(height == 15'd0), .late(is_flat_20));
-  delay #(.WIDTH(1), .CLOCKS(6)) of_behind (.clk, .early(is_behind_14), .late(is_behind_20));
-  delay #(.WIDTH(1), .CLOCKS(14)) of_below (.clk, .early(is_below), .late(is_below_21));
-  delay #(.CLOCKS(5)) of_size (.clk, .early(size_15), .late(size_20));
-  delay #(.CLOCKS(2)) of_size_late (.clk, .early(size_20), .late(size_22));
-  logic [15:0] turned, azimuth_21, azimuth_22, azimuth, polar, proportion;
+  // Clock 22: the arc, behind or not; what is left of the quarter. Clock 23: azimuth's sign; the part of the rest. Clock 24: angles.
+  logic is_flat_21, is_behind_21, is_below_22;
+  logic [15:0] size_21, size_23;
+  delay #(.WIDTH(1), .CLOCKS(14)) of_flat (.clk, .early(height == 15'd0), .late(is_flat_21));
+  delay #(.WIDTH(1), .CLOCKS(7)) of_behind (.clk, .early(is_behind_14), .late(is_behind_21));
+  delay #(.WIDTH(1), .CLOCKS(15)) of_below (.clk, .early(is_below), .late(is_below_22));
+  delay #(.CLOCKS(6)) of_size (.clk, .early(size_15), .late(size_21));
+  delay #(.CLOCKS(2)) of_size_late (.clk, .early(size_21), .late(size_23));
+  logic [15:0] turned, azimuth_22, azimuth_23, azimuth, polar, proportion;
   logic signed [16:0] rest;
   logic signed [33:0] part;
-  assign turned = is_flat_20 ? 16'd0 : arc_word;
+  assign turned = is_flat_21 ? 16'd0 : arc_word;
   always_ff @(posedge clk) begin
-    azimuth_21 <= is_behind_20 ? 16'h8000 - turned : turned;
-    proportion <= is_flat_20 ? 16'd0 : proportion_word;
-    rest <= 17'sh04000 - $signed({1'b0, size_20});
-    azimuth_22 <= is_below_21 ? -azimuth_21 : azimuth_21;
+    azimuth_22 <= is_behind_21 ? 16'h8000 - turned : turned;
+    proportion <= is_flat_21 ? 16'd0 : proportion_word;
+    rest <= 17'sh04000 - $signed({1'b0, size_21});
+    azimuth_23 <= is_below_22 ? -azimuth_22 : azimuth_22;
     part <= rest * $signed({1'b0, proportion});
-    azimuth <= azimuth_22;
-    polar <= 16'(18'(part >>> 16) + $signed({2'b0, size_22}));
+    azimuth <= azimuth_23;
+    polar <= 16'(18'(part >>> 16) + $signed({2'b0, size_23}));
   end
 
-  // Clock 24: sums and differences. Clocks 25 to 30: the inner product.
+  // Clock 25: sums and differences. Clocks 26 to 31: the inner product.
   logic [15:0] bump_phi_late, bump_theta_late, sum, difference, turn;
-  delay #(.CLOCKS(23)) of_bump_phi (.clk, .early(bump_phi), .late(bump_phi_late));
-  delay #(.CLOCKS(23)) of_bump_theta (.clk, .early(bump_theta), .late(bump_theta_late));
+  delay #(.CLOCKS(24)) of_bump_phi (.clk, .early(bump_phi), .late(bump_phi_late));
+  delay #(.CLOCKS(24)) of_bump_theta (.clk, .early(bump_theta), .late(bump_theta_late));
   always_ff @(posedge clk) begin
     sum <= polar + bump_theta_late;
     difference <= polar - bump_theta_late;

@@ -1,6 +1,6 @@
 // Whether a result is one: what `valid_in` was as many clocks ago. A reset empties it.
 module valid_chain #(
-    parameter int CLOCKS = 1
+    parameter int CLOCKS = 2
 ) (
     input  logic clk,
     input  logic reset,
