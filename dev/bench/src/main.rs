@@ -11,6 +11,7 @@ mod inputs;
 mod light;
 mod machine;
 mod models;
+mod polar;
 mod quantize;
 mod raster;
 mod relight;
@@ -33,7 +34,7 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 10] = [
+const GROUPS: [Group; 11] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",
@@ -48,6 +49,7 @@ const GROUPS: [Group; 10] = [
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "light", what: "a table lit sixteen normals at a time against one at a time", run: light::run },
     Group { name: "models", what: "a table's light against a frame's and against every pixel's", run: models::run },
+    Group { name: "polar", what: "models of bump units against the same products in floats", run: polar::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
     Group { name: "raster", what: "frames against lavapipe, SwiftShader and euc", run: raster::run },
     Group { name: "render", what: "the reference renderer: table against exact", run: render::run },
