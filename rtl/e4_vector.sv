@@ -13,19 +13,10 @@ module e4_vector #(
     input  logic        [15:0] bump_across,
     output logic signed [15:0] product
 );
-  // Clocks 1 to 6.
-  logic signed [15:0] x, y;
-  projection #(.A(A)) plane (.clk, .phi, .theta, .phi_N, .x, .y);
-
-  // Clock 7: magnitudes, at most 1.
+  // Clocks 1 to 7.
   logic [14:0] width, height;
   logic is_left, is_below;
-  always_ff @(posedge clk) begin
-    width <= 15'(x < 0 ? -x : x);
-    height <= 15'(y < 0 ? -y : y);
-    is_left <= x < 0;
-    is_below <= y < 0;
-  end
+  projection #(.A(A)) plane (.clk, .phi, .theta, .phi_N, .width, .is_left, .height, .is_below);
 
   // Clocks 8 to 11: the angle across, with y's sign.
   logic [15:0] arc_across, across;

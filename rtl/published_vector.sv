@@ -12,19 +12,10 @@ module published_vector #(
     input  logic        [15:0] bump_theta,
     output logic signed [15:0] product
 );
-  // Clocks 1 to 6.
-  logic signed [15:0] x, y;
-  projection #(.A(A)) plane (.clk, .phi, .theta, .phi_N, .x, .y);
-
-  // Clock 7: magnitudes, at most 1.
+  // Clocks 1 to 7.
   logic [14:0] width, height;
   logic is_left, is_below;
-  always_ff @(posedge clk) begin
-    width <= 15'(x < 0 ? -x : x);
-    height <= 15'(y < 0 ? -y : y);
-    is_left <= x < 0;
-    is_below <= y < 0;
-  end
+  projection #(.A(A)) plane (.clk, .phi, .theta, .phi_N, .width, .is_left, .height, .is_below);
 
   // Clocks 8 to 10: the arc sine, which loses the sign of z. Clock 11: beyond 90°. Clock 12: left. Clock 13: Z.
   logic [15:0] arc, theta_10, theta_N_12, theta_x_11, theta_x_12, z;

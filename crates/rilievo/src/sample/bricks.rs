@@ -1,7 +1,7 @@
 //! A brick wall in running bond.
 
-use super::covering::{Covering, blend};
-use super::noise::{mix, smoothstep, tile_noise};
+use super::covering::{Covering, blend, whole};
+use super::noise::{mix, smoothstep, tile_noise, tile_octaves};
 use crate::color::LinearRgb;
 use crate::{Error, Result};
 
@@ -39,7 +39,7 @@ pub fn bricks(side: u32) -> Result<Covering> {
         let brick = brick % ACROSS;
         // One value for a brick: the corners of the lattice.
         let chance = |seed| tile_noise(brick as f32, course as f32, [ACROSS, COURSES], seed);
-        let rough = |scale: u32, seed| octaves(u, v, [ACROSS * scale, COURSES * scale], seed);
+        let rough = |scale: u32, seed| tile_octaves(u, v, [ACROSS * scale, COURSES * scale], seed);
         // To the joint, in heights of a course; a brick is twice as long as it is high, and hands made it.
         let edge = rounded([2.0 * (0.5 - (x - 0.5).abs()), 0.5 - (y - 0.5).abs()]) + 0.02 * rough(6, 1);
         let face = smoothstep(JOINT - 0.03, JOINT + 0.05 + texel, edge);
@@ -55,26 +55,11 @@ pub fn bricks(side: u32) -> Result<Covering> {
     })
 }
 
-/// The whole part and the rest of what is not negative.
-pub(super) fn whole(x: f32) -> (u32, f32) {
-    let whole = x as u32;
-    (whole, x - whole as f32)
-}
-
 /// Distance to the nearer side, less where two sides meet.
 fn rounded([x, y]: [f32; 2]) -> f32 {
     let corner = CORNER + JOINT;
     let (dx, dy) = ((corner - x).max(0.0), (corner - y).max(0.0));
     if dx > 0.0 && dy > 0.0 { corner - (dx * dx + dy * dy).sqrt() } else { x.min(y) }
-}
-
-/// Three octaves of noise that tiles, of so many cells at first; about [−1, 1].
-pub(super) fn octaves(u: f32, v: f32, cells: [u32; 2], seed: i32) -> f32 {
-    (0..3).fold(0.0, |sum, octave| {
-        let [across, down] = cells.map(|n| n << octave);
-        let noise = tile_noise(u * across as f32, v * down as f32, [across, down], seed * 16 + octave);
-        sum + noise * 0.57 / (1 << octave) as f32
-    })
 }
 
 #[cfg(test)]

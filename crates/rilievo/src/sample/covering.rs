@@ -37,3 +37,9 @@ impl Covering {
 pub(super) fn blend(a: LinearRgb, b: LinearRgb, t: f32) -> LinearRgb {
     a * (1.0 - t) + b * t
 }
+
+/// The whole part and the rest of what is not negative.
+pub(super) fn whole(x: f32) -> (u32, f32) {
+    let whole = x as u32;
+    (whole, x - whole as f32)
+}

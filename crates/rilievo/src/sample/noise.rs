@@ -49,6 +49,15 @@ pub(crate) fn tile_noise(x: f32, y: f32, period: [u32; 2], seed: i32) -> f32 {
     lattice_noise(x, y, |ix, iy| lattice(ix.rem_euclid(across), iy.rem_euclid(down), seed))
 }
 
+/// Three octaves of [`tile_noise`], of so many cells at first; about [−1, 1].
+pub(crate) fn tile_octaves(u: f32, v: f32, cells: [u32; 2], seed: i32) -> f32 {
+    (0..3).fold(0.0, |sum, octave| {
+        let [across, down] = cells.map(|n| n << octave);
+        let noise = tile_noise(u * across as f32, v * down as f32, [across, down], seed * 16 + octave);
+        sum + noise * 0.57 / (1 << octave) as f32
+    })
+}
+
 fn lattice_noise(x: f32, y: f32, value: impl Fn(i32, i32) -> f32) -> f32 {
     let ((ix, tx), (iy, ty)) = (cell(x), cell(y));
     let at = |dx: i32, dy: i32| value(ix + dx, iy + dy);

@@ -1,8 +1,7 @@
 //! A wall of wooden boards.
 
-use super::bricks::{octaves, whole};
-use super::covering::{Covering, blend};
-use super::noise::{mix, smoothstep, tile_noise};
+use super::covering::{Covering, blend, whole};
+use super::noise::{mix, smoothstep, tile_noise, tile_octaves};
 use crate::color::LinearRgb;
 use crate::{Error, Result};
 
@@ -36,11 +35,11 @@ pub fn planks(side: u32) -> Result<Covering> {
         let (board, y) = whole(v * BOARDS as f32);
         let chance = |seed| tile_noise(0.0, board as f32, [1, BOARDS], seed);
         // The log's rings, cut lengthwise: nearly straight lines, bent where the tree was.
-        let bend = octaves(u, v, [2, BOARDS], 11) * 0.5 + octaves(u, v, [5, 3 * BOARDS], 12) * 0.16;
+        let bend = tile_octaves(u, v, [2, BOARDS], 11) * 0.5 + tile_octaves(u, v, [5, 3 * BOARDS], 12) * 0.16;
         let (_, ring) = whole((y + bend + 4.0 + chance(13)) * LINES);
         let line = smoothstep(0.25, 0.85, ring) * smoothstep(1.0, 0.9, ring);
         // Pores are short and lie along the grain.
-        let pores = octaves(u, v, [12, 40 * BOARDS], 14);
+        let pores = tile_octaves(u, v, [12, 40 * BOARDS], 14);
         let edge = 0.5 - (y - 0.5).abs();
         let face = smoothstep(GAP - 0.02, GAP + 0.07 + texel, edge);
         let weather = 0.16 * line + 0.05 * pores + 0.05 * chance(15);
