@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod base64;
 mod batch;
 mod commands;
 mod demo;

@@ -1,6 +1,7 @@
 //! Oracles, generators and comparison shared by the tests of every crate. Not published.
 #![forbid(unsafe_code)]
 
+pub mod browser;
 mod data;
 pub mod golden;
 mod lengths;

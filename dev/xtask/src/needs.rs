@@ -108,6 +108,14 @@ const TOOLS: &[Tool] = &[
         debian: Some("yosys"),
         hint: "install yosys",
     },
+    Tool {
+        name: "chromium",
+        programs: &["chromium"],
+        purpose: "opens the pages that the program writes, and drags their light",
+        without: Without::Skip,
+        debian: Some("chromium"),
+        hint: "install chromium",
+    },
     // The peers of `cargo xtask bench raster`: nothing but that looks for them, so nobody gets them unasked.
     Tool {
         name: "lavapipe",

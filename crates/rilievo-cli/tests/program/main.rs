@@ -6,6 +6,7 @@ mod hostile;
 mod light;
 mod methods;
 mod normal;
+mod page;
 mod polar;
 mod quantize;
 mod relight;

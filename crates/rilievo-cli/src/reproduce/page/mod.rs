@@ -1,6 +1,5 @@
 //! The report as one HTML file that refers to nothing outside itself and runs no script.
 
-mod base64;
 mod plot;
 
 use std::fmt::Write as _;
@@ -8,6 +7,7 @@ use std::fmt::Write as _;
 pub(crate) use plot::{Axis, Plot, Series};
 
 use super::findings::{Block, Findings, Image, Shot, Shots, Table};
+use crate::base64;
 
 /// A section with what it found.
 pub(crate) struct Part<'a> {

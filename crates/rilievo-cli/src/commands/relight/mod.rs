@@ -1,5 +1,7 @@
 //! `rilievo relight`: the flat map under new light.
 
+mod page;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -22,14 +24,16 @@ Examples:
   rilievo relight vase_2048.ktx2 --frames 36 -o turning_light.png
   rilievo relight palette_made_by_pngquant.png --convention dx
   rilievo relight coin_256.png --model metallic-roughness:1,0.3 --environment studio.hdr --material 0,d4af37
+  rilievo relight coin_normal_gl.png --html          -> a page on which the mouse moves the light
 
-An indexed PNG is relit by rewriting its palette: no pixel is decoded.";
+An indexed PNG is relit by rewriting its palette: no pixel is decoded. The page of --html does the same in a browser, with the map
+inside it and nothing fetched; a map of more than 256 normals, or one that is not indexed, is quantised for it.";
 
 /// Show flat maps under new light.
 #[derive(Debug, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct Args {
-    /// Index maps: indexed PNG or KTX2; - is stdin.
+    /// Index maps: indexed PNG or KTX2, with --html any normal map too; - is stdin.
     #[arg(required = true, value_name = "INDEXED")]
     inputs: Vec<PathBuf>,
     /// The output picture (PNG; animated with --frames), or a folder for several inputs.
@@ -42,6 +46,9 @@ pub(crate) struct Args {
     /// A base colour picture of the map's size.
     #[arg(long, value_name = "PICTURE")]
     color: Option<PathBuf>,
+    /// Write a page that relights the map while the mouse, a finger or the arrow keys move its first light.
+    #[arg(long)]
+    html: bool,
     /// Frames of an animation in which the lights go once round the vertical axis.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10000))]
     frames: u32,
@@ -66,10 +73,21 @@ pub(crate) fn run(args: &Args, given: &Given) -> Result<Outcome> {
     if args.frames == 1 {
         given.unused(&["delay"], "one frame is no animation; see --frames");
     }
-    let name = |input: &Path| format!("{}_relit.png", batch::stem(input));
+    let (kind, extensions): (_, &[&str]) =
+        if args.html { ("relight.html", &["html", "htm"]) } else { ("relit.png", &["png"]) };
+    if args.html {
+        for flag in ["color", "frames", "environment", "blend"] {
+            if given.has(flag) {
+                return Err(usage(format!(
+                    "--{flag} goes without --html: the page rewrites a palette, and that is all"
+                )));
+            }
+        }
+    }
+    let name = |input: &Path| format!("{}_{kind}", batch::stem(input));
     let read: Vec<&Path> = args.color.iter().chain(&args.light.environment).map(PathBuf::as_path).collect();
     let light = Light::new(args, given)?;
-    batch::run(&args.inputs, args.output.as_deref(), &["png"], &read, name, |input, output| {
+    batch::run(&args.inputs, args.output.as_deref(), extensions, &read, name, |input, output| {
         convert(args, &light, input, output)
     })
 }
@@ -102,6 +120,12 @@ impl Light {
 
 fn convert(args: &Args, light: &Light, input: &Path, output: &Path) -> Result<Outcome> {
     let source = inputs::open(input)?;
+    if args.html {
+        let page = page::page(&source, &args.import(), &light.spec, &light.materials)?;
+        io::write_atomic(output, page.as_bytes())?;
+        remark(format!("{}: {:.1} kB", output.display(), page.len() as f64 / 1e3));
+        return Ok(Outcome::Done);
+    }
     let bytes = if args.frames == 1 && args.color.is_none() && io::is_palette_png(&source) {
         relit_palette(args, light, &source)?
     } else {

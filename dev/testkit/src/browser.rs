@@ -1,0 +1,165 @@
+//! A real browser, driven over its debugging pipe: no driver program and no port in between.
+
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::skip::has_program;
+
+/// How long a page may take for anything.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Chromium without a window, with one page.
+#[derive(Debug)]
+pub struct Browser {
+    child: Child,
+    to: File,
+    from: BufReader<File>,
+    session: Option<String>,
+    number: u64,
+    /// What the page asked for, by address.
+    pub requests: Vec<String>,
+    /// Errors of its scripts and of its console.
+    pub complaints: Vec<String>,
+    folder: PathBuf,
+}
+
+impl Browser {
+    /// Starts it; `None`, and the test is skipped loudly, if there is none. `flags` are the browser's own.
+    ///
+    /// # Panics
+    /// If it does not start, or if there is none and `CI` is `true`.
+    pub fn start(flags: &[&str]) -> Option<Self> {
+        if !cfg!(unix) || !has_program("chromium") {
+            return None;
+        }
+        let name = format!("rilievo-browser-{}-{:?}", std::process::id(), std::thread::current().id());
+        let folder = std::env::temp_dir().join(name.replace(['(', ')'], ""));
+        fs::create_dir_all(&folder).expect("a temporary folder");
+        let [to, from] = ["to", "from"].map(|name| folder.join(name));
+        let made = Command::new("mkfifo").args([&to, &from]).status().expect("mkfifo runs");
+        assert!(made.success(), "mkfifo failed");
+        // A shell puts the pipes where the browser looks for them: the standard library has no way to.
+        let child = Command::new("sh")
+            .arg("-c")
+            .arg("to=$1; from=$2; shift 2; exec chromium \"$@\" 3<\"$to\" 4>\"$from\"")
+            .arg("sh")
+            .args([&to, &from])
+            .args(["--headless", "--no-sandbox", "--no-first-run", "--disable-gpu", "--disable-background-networking"])
+            .args(["--disable-component-update", "--disable-sync", "--remote-debugging-pipe", "--window-size=900,1000"])
+            .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+            .args(flags)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("a shell runs");
+        // In the order in which the shell opens them: each waits for the other side.
+        let to = fs::OpenOptions::new().write(true).open(&to).expect("the browser listens");
+        let from = BufReader::new(File::open(&from).expect("the browser speaks"));
+        let (requests, complaints) = (Vec::new(), Vec::new());
+        let mut browser = Self { child, to, from, session: None, number: 0, requests, complaints, folder };
+        let target = browser.call("Target.createTarget", &json!({ "url": "about:blank" }));
+        let attach = json!({ "targetId": target["targetId"], "flatten": true });
+        let session = browser.call("Target.attachToTarget", &attach);
+        browser.session = session["sessionId"].as_str().map(str::to_owned);
+        for domain in ["Page", "Runtime", "Log", "Network"] {
+            browser.call(&format!("{domain}.enable"), &json!({}));
+        }
+        Some(browser)
+    }
+
+    /// Opens a file and waits until it is loaded.
+    pub fn open(&mut self, file: &Path) {
+        let url = format!("file://{}", file.canonicalize().expect("the page is there").display());
+        self.call("Page.navigate", &json!({ "url": url }));
+        self.wait_until("document.readyState === 'complete' && location.protocol === 'file:'");
+    }
+
+    /// The value of an expression on the page; of a promise, what it comes to.
+    ///
+    /// # Panics
+    /// If the expression throws.
+    pub fn eval(&mut self, expression: &str) -> Value {
+        let asked = json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
+        let said = self.call("Runtime.evaluate", &asked);
+        assert!(said.get("exceptionDetails").is_none(), "{expression}: {said}");
+        said["result"]["value"].clone()
+    }
+
+    /// Waits until an expression is true.
+    ///
+    /// # Panics
+    /// If it is not within a minute.
+    pub fn wait_until(&mut self, expression: &str) {
+        let start = Instant::now();
+        while self.eval(expression) != Value::Bool(true) {
+            assert!(start.elapsed() < PATIENCE, "not within {PATIENCE:?}: {expression}; {:?}", self.complaints);
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// The mouse at a place of the page, in CSS pixels: `mousePressed`, `mouseMoved` or `mouseReleased`.
+    pub fn mouse(&mut self, what: &str, [x, y]: [f64; 2]) {
+        let button = if what == "mouseMoved" { "none" } else { "left" };
+        let event = json!({ "type": what, "x": x, "y": y, "button": button, "clickCount": 1, "pointerType": "mouse" });
+        self.call("Input.dispatchMouseEvent", &event);
+    }
+
+    /// A key, by its name.
+    pub fn key(&mut self, key: &str) {
+        for what in ["keyDown", "keyUp"] {
+            self.call("Input.dispatchKeyEvent", &json!({ "type": what, "key": key, "code": key }));
+        }
+    }
+
+    fn call(&mut self, method: &str, parameters: &Value) -> Value {
+        self.number += 1;
+        let mut message = json!({ "id": self.number, "method": method, "params": parameters });
+        if let (Some(session), Some(object)) = (&self.session, message.as_object_mut()) {
+            object.insert("sessionId".to_owned(), session.clone().into());
+        }
+        self.to.write_all(format!("{message}\0").as_bytes()).expect("the browser listens");
+        loop {
+            let mut bytes = Vec::new();
+            let read = self.from.read_until(0, &mut bytes).expect("the browser speaks");
+            assert!(read > 0, "the browser ended before it answered {method}");
+            bytes.pop();
+            let said: Value = serde_json::from_slice(&bytes).expect("the browser speaks JSON");
+            if said["id"] == self.number {
+                assert!(said.get("error").is_none(), "{method}: {said}");
+                return said["result"].clone();
+            }
+            self.hear(&said);
+        }
+    }
+
+    /// What the browser says unasked.
+    fn hear(&mut self, said: &Value) {
+        let about = &said["params"];
+        match said["method"].as_str() {
+            Some("Network.requestWillBeSent") => {
+                self.requests.extend(about["request"]["url"].as_str().map(str::to_owned));
+            }
+            Some("Runtime.exceptionThrown") => self.complaints.push(about["exceptionDetails"].to_string()),
+            Some("Log.entryAdded") if about["entry"]["level"] == "error" => {
+                self.complaints.push(about["entry"].to_string());
+            }
+            Some("Runtime.consoleAPICalled") if about["type"] == "error" => self.complaints.push(about.to_string()),
+            _ => {}
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        // Whatever becomes of it, the test is over.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
