@@ -100,6 +100,8 @@ fn vectors_are_what_the_model_says() {
     }
     let out = room.run("polar vectors e4 --corners --count 0").ok().stdout;
     assert_eq!(out.iter().filter(|&&b| b == b'\n').count(), 20_736 + 3);
+    room.run("polar vectors e3 --count 1 --light 30,45").warns(&["--light: not used"]);
+    room.run("polar table --json --gates").warns(&["--gates: not used"]);
     let [a, b] = ["30,45", "120,70"].map(|light| room.run(&format!("polar vectors e4d --light {light}")).ok().stdout);
     assert!(a != b);
 }

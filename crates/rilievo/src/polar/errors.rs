@@ -70,7 +70,7 @@ pub struct UnitErrors {
 
 /// Measures a unit in fixed point.
 ///
-/// Both sides get the same words: what is measured is the unit, not the rounding of its input. Units that hold directions in
+/// Both sides get the same binary angles; words that are numbers are the nearest to what those angles make. Units that hold directions in
 /// tables ([`UnitKind::is_distant`]) are measured in eight frames. Kugler's maps have nothing below the horizon: there 0 is
 /// expected of it.
 ///

@@ -40,7 +40,9 @@ pub(crate) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {
-    let model = Model::new(args.unit.0, args.table_bits.0, args.frame.frame());
+    let frame = args.frame.frame(args.unit.0);
+    let heading = heading(args.unit.0, args.table_bits.0.bits(), &frame);
+    let model = Model::new(args.unit.0, args.table_bits.0, frame);
     let roms = model.roms();
     if let Some(name) = &args.table {
         let Some(rom) = roms.iter().find(|rom| rom.name() == name) else {
@@ -49,16 +51,15 @@ pub(super) fn run(args: &Args) -> Result<()> {
                 if names.is_empty() { "it has none".to_owned() } else { format!("there are {}", names.join(", ")) };
             return Err(usage(format!("{} has no table '{name}'; {there}", args.unit.0)));
         };
-        return super::write(None, &text(args, rom));
+        return super::write(None, &text(&heading, rom));
     }
     match &args.output {
-        Some(folder) => write_all(args, &roms, folder),
+        Some(folder) => write_all(args, &heading, &roms, folder),
         None => super::write(None, &list(&roms)),
     }
 }
 
-fn text(args: &Args, rom: &Rom) -> String {
-    let heading = heading(args.unit.0, args.table_bits.0.bits(), &args.frame.frame());
+fn text(heading: &str, rom: &Rom) -> String {
     let words: String = rom.words().iter().map(|word| format!("{word:04x}\n")).collect();
     format!("// {heading}, table {}\n{words}", rom.name())
 }
@@ -72,11 +73,11 @@ fn list(roms: &[&Rom]) -> String {
     rows.to_text()
 }
 
-fn write_all(args: &Args, roms: &[&Rom], folder: &Path) -> Result<()> {
+fn write_all(args: &Args, heading: &str, roms: &[&Rom], folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     for rom in roms {
         let path = folder.join(format!("{}_{}.hex", args.unit.0, rom.name()));
-        super::write(Some(&path), &text(args, rom))?;
+        super::write(Some(&path), &text(heading, rom))?;
         remark(path.display().to_string());
     }
     Ok(())

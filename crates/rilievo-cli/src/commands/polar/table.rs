@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::rows::Rows;
 use crate::args::TableBitsArg;
+use crate::exit;
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -42,6 +43,9 @@ pub(super) fn run(args: &Args) -> Result<()> {
         (unit, cost.set_up, cost.illumination, StageCost { cost: cost.total(), quoted: cost.set_up.quoted })
     });
     if args.json {
+        if args.gates {
+            exit::warn("--gates", "not used: the objects have them in any case");
+        }
         let objects = costs.map(|(unit, set_up, illumination, total)| {
             let printed =
                 unit.printed().map(|p| json!({ "setup": counts(p.set_up), "illumination": counts(p.illumination) }));

@@ -45,7 +45,7 @@ pub(crate) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {
-    let (unit, frame) = (args.unit.0, args.frame.frame());
+    let (unit, frame) = (args.unit.0, args.frame.frame(args.unit.0));
     let model = Model::new(unit, args.table_bits.0, frame);
     let ports: Vec<String> = unit.ports().iter().map(ToString::to_string).collect();
     let mut text =
