@@ -82,10 +82,15 @@ fn light_map(name: &'static str, vector: Direction) -> Rom {
     let waves: Vec<_> = (0..side)
         .map(|phi| sin_cos(i128::from(phi) * TURN / i128::from(side) - (i128::from(vector.azimuth) << 44)).1)
         .collect();
+    let rings: Vec<_> = (0..side)
+        .map(|theta| {
+            let (sin, cos) = sin_cos(i128::from(theta) * (TURN / 2) / i128::from(side - 1));
+            ((sin * sin_a) >> 60, (cos * cos_a) >> 60)
+        })
+        .collect();
     let word = move |i: u32| {
-        let (sin, cos) = sin_cos(i128::from(i % side) * (TURN / 2) / i128::from(side - 1));
-        let level = (((sin * sin_a) >> 60) * waves[(i / side) as usize]) >> 60;
-        let product = level + ((cos * cos_a) >> 60);
+        let (level, upright) = rings[(i % side) as usize];
+        let product = ((level * waves[(i / side) as usize]) >> 60) + upright;
         ((product.max(0) * 255 + ONE / 2) >> 60) as u16
     };
     Rom::new(name, (0..side * side).map(word))
