@@ -7,7 +7,7 @@ use rilievo::measure::AngleStats;
 use serde_json::{Map, Value};
 
 /// Six digits say all that was measured; what is not finite has no number.
-fn number(value: f64) -> Value {
+pub(crate) fn number(value: f64) -> Value {
     let rounded = format!("{value:.6}").parse::<f64>().unwrap_or(value);
     serde_json::Number::from_f64(rounded).map_or(Value::Null, Value::Number)
 }

@@ -105,6 +105,11 @@ impl UnitKind {
         matches!(self, Self::Kugler | Self::E4d)
     }
 
+    /// [`Model::limit`] of a model with tables of a width, without making one.
+    pub fn limit(self, width: Width) -> Option<u32> {
+        limit(self, width)
+    }
+
     /// How it copes with a turned texture frame.
     pub const fn twist(self) -> Twist {
         match self {
@@ -290,7 +295,7 @@ impl Model {
     /// Against exact arithmetic on the exact angles and bump vector of which the words are the nearest. None where no
     /// limit follows: the error of the published unit and of the one with exact Z is the method's, and Blinn's slopes end at ±8.
     pub fn limit(&self) -> Option<u32> {
-        limit(self.kind, self.width)
+        self.kind.limit(self.width)
     }
 
     /// Its tables, each once, without those of the light.

@@ -170,6 +170,16 @@ pub(crate) fn has(name: &str) -> bool {
     TOOLS.iter().find(|tool| tool.name == name).is_some_and(Tool::is_there)
 }
 
+/// An error that says how to get what of these tools is not there.
+pub(crate) fn demand(names: &[&str]) -> Result<()> {
+    let missing: Vec<&Tool> = missing().into_iter().filter(|tool| names.contains(&tool.name)).collect();
+    verdict(&missing)?;
+    if let Some(tool) = missing.first() {
+        bail!("{}", tool.describe());
+    }
+    Ok(())
+}
+
 fn missing() -> Vec<&'static Tool> {
     TOOLS.iter().filter(|tool| !tool.is_there()).collect()
 }

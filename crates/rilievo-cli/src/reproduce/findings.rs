@@ -5,6 +5,7 @@ use rilievo::color::Picture;
 use serde_json::{Map, Value};
 
 use super::page::Plot;
+use crate::report::number;
 
 /// One part of a section, in the order of the page.
 pub(crate) enum Block {
@@ -78,12 +79,6 @@ impl Findings {
         let papers = self.figures.iter().filter_map(|f| Some((f.key.clone(), number(f.paper?))));
         (Value::Object(measured), Value::Object(papers.collect()))
     }
-}
-
-/// Six digits after the point say all that was measured; what is not finite has no number.
-fn number(value: f64) -> Value {
-    let rounded = format!("{value:.6}").parse::<f64>().unwrap_or(value);
-    serde_json::Number::from_f64(rounded).map_or(Value::Null, Value::Number)
 }
 
 /// A column of a table.

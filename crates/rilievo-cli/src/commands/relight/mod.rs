@@ -111,8 +111,7 @@ impl Light {
 
     /// Lights a table as seen straight from the front.
     fn table<S: Space>(&self, table: &NormalTable<S>, turn_rad: f32) -> Result<ShadeTable> {
-        let count = table.spans().last().map_or(1, |s| usize::from(s.material) + 1);
-        let materials = self.materials.resolve(count, |_| Material::default());
+        let materials = self.materials.resolve(materials_of(table), |_| Material::default());
         let shades = ShadeTable::new(table, &materials, &self.turned(turn_rad).facing(), Normal::Z, Vec3::ZERO);
         shades.map_err(|e| usage(e.to_string()))
     }
@@ -139,14 +138,24 @@ fn convert(args: &Args, light: &Light, input: &Path, output: &Path) -> Result<Ou
     Ok(Outcome::Done)
 }
 
-/// Rewrites the palette and its checksum; every other byte stays.
-fn relit_palette(args: &Args, light: &Light, source: &Source) -> Result<Vec<u8>> {
-    let png = PalettePng::parse(source)?;
-    let palette = png.table(&args.import())?;
+/// The table of an indexed PNG; what is odd about it is told.
+fn table_of(png: &PalettePng<'_>, source: &Source, import: &ImportAs) -> Result<AnyTable> {
+    let palette = png.table(import)?;
     for warning in &palette.warnings {
         exit::warn(source.name(), warning);
     }
-    let shades = match &palette.table {
+    Ok(palette.table)
+}
+
+/// How many materials a table names.
+fn materials_of<S: Space>(table: &NormalTable<S>) -> usize {
+    table.spans().last().map_or(1, |span| usize::from(span.material) + 1)
+}
+
+/// Rewrites the palette and its checksum; every other byte stays.
+fn relit_palette(args: &Args, light: &Light, source: &Source) -> Result<Vec<u8>> {
+    let png = PalettePng::parse(source)?;
+    let shades = match &table_of(&png, source, &args.import())? {
         AnyTable::Tangent(table) => light.table(table, 0.0)?,
         AnyTable::Object(table) => light.table(table, 0.0)?,
     };

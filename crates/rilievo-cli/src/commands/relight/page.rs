@@ -6,13 +6,14 @@ use anyhow::Result;
 use rilievo::light::{LightingModel, Material};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Dither, Options, quantize};
-use rilievo::{LinearRgb, NormalTable, QuantizedMap, Space, Tangent};
+use rilievo::{LinearRgb, QuantizedMap, Space, Tangent};
 use rilievo_io::{self as io, AnyIndexed, AnyTable, ImportAs, PalettePng, Source};
 use serde_json::{Value, json};
 
+use super::{materials_of, table_of};
 use crate::exit::{remark, usage};
 use crate::scene::{Lamp, LightSpec, MaterialSpec, Side};
-use crate::{base64, batch, exit, inputs};
+use crate::{base64, batch, inputs};
 
 /// The page without a map. It has a size: a museum puts it on its own page.
 const PAGE: &str = include_str!("page.html");
@@ -37,11 +38,7 @@ pub(super) fn page(source: &Source, import: &ImportAs, light: &LightSpec, materi
 fn palette_png(source: &Source, import: &ImportAs) -> Result<(Vec<u8>, usize)> {
     if io::is_palette_png(source) {
         let png = PalettePng::parse(source)?;
-        let palette = png.table(import)?;
-        for warning in &palette.warnings {
-            exit::warn(source.name(), warning);
-        }
-        let count = match &palette.table {
+        let count = match &table_of(&png, source, import)? {
             AnyTable::Tangent(table) => materials_of(table),
             AnyTable::Object(table) => materials_of(table),
         };
@@ -81,10 +78,6 @@ fn shaped<'a>() -> Options<'a> {
 
 fn tell(source: &Source, rms_rad: f64) {
     remark(format!("{}: {MOST} normals for the page, {:.3} degrees RMS", source.name(), rms_rad.to_degrees()));
-}
-
-fn materials_of<S: Space>(table: &NormalTable<S>) -> usize {
-    table.spans().last().map_or(1, |span| usize::from(span.material) + 1)
 }
 
 /// What the page's script knows of a material.

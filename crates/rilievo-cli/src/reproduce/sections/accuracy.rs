@@ -2,8 +2,11 @@
 
 use anyhow::Result;
 use rilievo::Progress;
-use rilievo::polar::{Frame, LightSampling, LightTables, Model, PixelSampling, UnitKind, Width, unit_errors};
+use rilievo::polar::{
+    ErrorStats, Frame, LightSampling, LightTables, Model, PixelSampling, UnitErrors, UnitKind, Width, unit_errors,
+};
 
+use super::unit_key;
 use crate::reproduce::Kit;
 use crate::reproduce::findings::{Column, Findings, Table};
 use crate::reproduce::page::{Axis, Plot, Series};
@@ -28,10 +31,10 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
         pixels.count
     ));
     kit.bars.begin("units and widths", (UnitKind::ALL.len() + LINES.len() * (BITS.len() - 1)) as u64);
-    let measure = |unit, width| -> Result<[f64; 2]> {
-        let errors = unit_errors(unit, width, light, &pixels)?.products;
+    let measure = |unit, width| -> Result<UnitErrors> {
+        let errors = unit_errors(unit, width, light, &pixels)?;
         kit.bars.advance(1);
-        Ok([errors.rms, errors.max])
+        Ok(errors)
     };
     let mut by_bits = Vec::new();
     let columns = ["unit", "×", "+", "LUT", "RMS error", "largest", "limit"].map(Column::here);
@@ -40,26 +43,26 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     let mut table = Table::new(caption, columns.to_vec());
     let mut by_multipliers = Vec::new();
     for unit in UnitKind::ALL {
-        let key = unit.name().replace('-', "_");
-        let model = Model::new(unit, Width::PAPER, Frame::default());
-        let cost = model.cost(&tables).total();
-        let [rms, max] = measure(unit, Width::PAPER)?;
+        let key = unit_key(unit);
+        let cost = |width| Model::new(unit, width, Frame::default()).cost(&tables).total();
+        let errors = measure(unit, Width::PAPER)?;
+        let ErrorStats { rms, max, .. } = errors.products;
         found.figure(format!("{key}_rms"), rms);
         found.figure(format!("{key}_max"), max);
-        let limit = model.limit().map_or("–".to_owned(), |limit| format!("{:.4}", f64::from(limit) / 16_384.0));
-        let counts = [cost.multipliers, cost.adders, cost.tables].map(|n| n.to_string());
+        let limit = errors.limit.map_or("–".to_owned(), |limit| format!("{limit:.4}"));
+        let parts = cost(Width::PAPER);
+        let counts = [parts.multipliers, parts.adders, parts.tables].map(|n| n.to_string());
         let mut cells = vec![unit.name().to_owned()];
         cells.extend(counts);
         cells.extend([format!("{rms:.4}"), format!("{max:.4}"), limit]);
         table.row(cells);
-        by_multipliers.push(Series::point(unit.name(), [f64::from(cost.multipliers), rms]));
+        by_multipliers.push(Series::point(unit.name(), [f64::from(parts.multipliers), rms]));
         if LINES.contains(&unit) {
             let mut points = Vec::new();
             for bits in BITS {
                 let width = Width::new(bits)?;
-                let bits = Model::new(unit, width, Frame::default()).cost(&tables).total().table_bits;
-                let rms = if width == Width::PAPER { rms } else { measure(unit, width)?[0] };
-                points.push([bits as f64, rms]);
+                let rms = if width == Width::PAPER { rms } else { measure(unit, width)?.products.rms };
+                points.push([cost(width).table_bits as f64, rms]);
             }
             by_bits.push(Series::measured(unit.name(), points));
         }

@@ -5,6 +5,7 @@ use rilievo::Progress;
 use rilievo::measure::{PictureStats, picture_stats};
 use rilievo::polar::{UnitKind, Width};
 
+use super::unit_key;
 use crate::reproduce::Kit;
 use crate::reproduce::findings::{Column, Findings, Shot, Shots, Table};
 use crate::reproduce::subjects::{Frame, Specimen, difference};
@@ -37,12 +38,13 @@ const MEASURES: [&str; 4] = ["nmse", "rnmse", "pmse", "rpmse"];
 struct Drawn<'a> {
     specimen: &'a Specimen,
     conventional: Frame,
-    by_unit: Vec<(UnitKind, Frame)>,
+    /// In the order of [`UnitKind::ALL`], each with its differences from the conventional one.
+    by_unit: Vec<(Frame, PictureStats)>,
 }
 
 impl Drawn<'_> {
-    fn by(&self, unit: UnitKind) -> &Frame {
-        self.by_unit.iter().find(|(kind, _)| *kind == unit).map_or(&self.conventional, |(_, frame)| frame)
+    fn by(&self, unit: UnitKind) -> &(Frame, PictureStats) {
+        &self.by_unit[UnitKind::ALL.iter().position(|u| *u == unit).unwrap_or(0)]
     }
 }
 
@@ -51,13 +53,15 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
     let specimens = Specimen::all(side)?;
     kit.bars.begin("pictures by the units", (specimens.len() * UnitKind::ALL.len()) as u64);
     let draw = |specimen| -> Result<Drawn<'_>> {
+        let conventional = Specimen::conventional(specimen, kit.size)?;
         let by_unit = UnitKind::ALL.into_iter().map(|unit| {
-            let frame = Specimen::by_unit(specimen, unit, Width::PAPER, kit.size)?;
+            let frame = specimen.by_unit(unit, Width::PAPER, kit.size)?;
+            let stats = picture_stats(&conventional.codes, &frame.codes)?;
             kit.bars.advance(1);
-            Ok((unit, frame))
+            Ok((frame, stats))
         });
         let by_unit = by_unit.collect::<Result<_>>()?;
-        Ok(Drawn { specimen, conventional: specimen.conventional(kit.size)?, by_unit })
+        Ok(Drawn { specimen, conventional, by_unit })
     };
     let drawn = specimens.iter().map(draw).collect::<Result<Vec<_>>>()?;
 
@@ -86,8 +90,8 @@ pub(crate) fn run(kit: &Kit<'_>) -> Result<Findings> {
         let table = printed_beside(&drawn, half, caption, &mut found)?;
         found.show(table);
     }
-    let worst = all_units(&drawn, &mut found)?;
-    remark(&drawn, worst, &mut found)?;
+    let worst = all_units(&drawn, &mut found);
+    remark(&drawn, worst, &mut found);
     Ok(found)
 }
 
@@ -97,8 +101,7 @@ fn shots(subject: &Drawn<'_>) -> Result<Shots> {
     let nothing = difference(exact, exact, GAIN)?;
     shots.add(Shot::new(exact, format!("{}, conventional", subject.specimen.name), "")?.over(&nothing)?);
     for (unit, name) in SHOWN {
-        let frame = subject.by(unit);
-        let [r, g, b] = picture_stats(&subject.conventional.codes, &frame.codes)?.rnmse;
+        let (frame, PictureStats { rnmse: [r, g, b], .. }) = subject.by(unit);
         let caption = format!("RNMSE {r:.3} {g:.3} {b:.3}");
         shots.add(Shot::new(&frame.shown, name, caption)?.over(&difference(exact, &frame.shown, GAIN)?)?);
     }
@@ -120,8 +123,11 @@ fn printed_beside(drawn: &[Drawn<'_>], half: usize, caption: &str, found: &mut F
     let mut table = Table::new(caption, columns);
     for (r, [reference, reference_key]) in REFERENCES.into_iter().enumerate() {
         for (s, subject) in drawn.iter().enumerate() {
-            let against = if r == 0 { &subject.conventional } else { subject.by(UnitKind::Kim) };
-            let measured = measures(&picture_stats(&against.codes, &subject.by(UnitKind::Published).codes)?);
+            let (published, against_conventional) = subject.by(UnitKind::Published);
+            let measured = measures(&match r {
+                0 => *against_conventional,
+                _ => picture_stats(&subject.by(UnitKind::Kim).0.codes, &published.codes)?,
+            });
             let mut cells = vec![format!("{reference}, {}", subject.specimen.key)];
             for m in 2 * half..2 * half + 2 {
                 let digits = if m == 1 { 3 } else { 4 };
@@ -140,7 +146,7 @@ fn printed_beside(drawn: &[Drawn<'_>], half: usize, caption: &str, found: &mut F
 }
 
 /// Every unit against the conventional method; the largest errors of E3 and E4: RNMSE, grey levels.
-fn all_units(drawn: &[Drawn<'_>], found: &mut Findings) -> Result<[(f64, u8); 2]> {
+fn all_units(drawn: &[Drawn<'_>], found: &mut Findings) -> [(f64, u8); 2] {
     let mut columns = vec![Column::here("unit")];
     for subject in drawn {
         columns.push(Column::here(format!("{}, RNMSE", subject.specimen.key)));
@@ -150,10 +156,10 @@ fn all_units(drawn: &[Drawn<'_>], found: &mut Findings) -> Result<[(f64, u8); 2]
     let mut table = Table::new(caption, columns);
     let mut worst = [(0.0, 0); 2];
     for unit in UnitKind::ALL {
-        let key = unit.name().replace('-', "_");
+        let key = unit_key(unit);
         let mut cells = vec![unit.name().to_owned()];
         for subject in drawn {
-            let stats = picture_stats(&subject.conventional.codes, &subject.by(unit).codes)?;
+            let stats = &subject.by(unit).1;
             let rnmse = stats.rnmse.into_iter().fold(0.0, f64::max);
             found.figure(format!("{}_{key}_rnmse", subject.specimen.key), rnmse);
             found.figure(format!("{}_{key}_max_levels", subject.specimen.key), stats.max_abs.into());
@@ -166,13 +172,13 @@ fn all_units(drawn: &[Drawn<'_>], found: &mut Findings) -> Result<[(f64, u8); 2]
         table.row(cells);
     }
     found.show(table);
-    Ok(worst)
+    worst
 }
 
-fn remark(drawn: &[Drawn<'_>], [e3, e4]: [(f64, u8); 2], found: &mut Findings) -> Result<()> {
+fn remark(drawn: &[Drawn<'_>], [e3, e4]: [(f64, u8); 2], found: &mut Findings) {
     let mut ranges = Vec::new();
     for subject in drawn {
-        let rnmse = picture_stats(&subject.conventional.codes, &subject.by(UnitKind::Published).codes)?.rnmse;
+        let rnmse = subject.by(UnitKind::Published).1.rnmse;
         let (low, high) = rnmse.into_iter().fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(v), h.max(v)));
         ranges.push(format!("{low:.2}–{high:.2} on the {}", subject.specimen.key));
     }
@@ -186,5 +192,4 @@ fn remark(drawn: &[Drawn<'_>], [e3, e4]: [(f64, u8); 2], found: &mut Findings) -
         e4.0,
         e4.1
     ));
-    Ok(())
 }

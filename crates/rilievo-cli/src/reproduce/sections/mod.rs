@@ -13,3 +13,8 @@ pub(super) mod rotation;
 pub(super) mod setup;
 pub(super) mod torus;
 pub(super) mod units;
+
+/// A bump unit as keys of figures call it.
+fn unit_key(unit: rilievo::polar::UnitKind) -> String {
+    unit.name().replace('-', "_")
+}

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use rilievo::polar::{Frame, LightTables, Model, UnitCost, UnitKind, Width};
 
+use super::unit_key;
 use crate::reproduce::Kit;
 use crate::reproduce::findings::{Column, Findings, Table};
 
@@ -72,7 +73,7 @@ fn row(unit: UnitKind, cost: &UnitCost) -> Vec<String> {
 }
 
 fn figures(unit: UnitKind, cost: &UnitCost, found: &mut Findings) {
-    let key = unit.name().replace('-', "_");
+    let key = unit_key(unit);
     let kinds = ["multipliers", "adders", "tables"];
     let stages = [("setup", &cost.set_up), ("illumination", &cost.illumination)];
     for (s, (name, stage)) in stages.into_iter().enumerate() {

@@ -4,7 +4,7 @@ use anyhow::Result;
 use glam::Vec2;
 use rilievo::color::Picture;
 use rilievo::height::Filter;
-use rilievo::light::{Layer, Light, Lighting, LightingModel, Material};
+use rilievo::light::{Light, Lighting, Material};
 use rilievo::normal::normal_levels;
 use rilievo::polar::{BumpVectorMap, UnitKind, Width};
 use rilievo::progress::Silent;
@@ -66,12 +66,7 @@ impl Specimen {
         };
         let level = rilievo::height::HeightMap::new(Grid::filled(width, height, 0.0)?, 1.0)?;
         let (bent, plain) = (levels(&covering.height)?, levels(&level)?);
-        let layer = |model| Layer { model, weight: 1.0 };
-        let material = Material::new([
-            layer(LightingModel::Ambient { color: LinearRgb::WHITE }),
-            layer(LightingModel::Lambert { color: LinearRgb::WHITE }),
-            layer(LightingModel::BlinnPhong { color: LinearRgb::gray(0.25), shininess: 20.0 }),
-        ]);
+        let material = Material::blinn_phong(LinearRgb::WHITE, LinearRgb::gray(0.25), 20.0);
         let color = MipChain::from_picture(&covering.color);
         Ok(Self { name, key, mesh, bent, plain, color, repeat, materials: [material], view })
     }
