@@ -5,6 +5,8 @@
 #![forbid(unsafe_code)]
 
 mod clock;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod harness;
 mod height;
 mod inputs;
@@ -34,7 +36,16 @@ struct Group {
     run: fn(rounds: usize, &mut Report) -> Result<()>,
 }
 
-const GROUPS: [Group; 11] = [
+/// Without the feature it is there to be asked for, and says what it takes.
+#[cfg(not(feature = "gpu"))]
+mod gpu {
+    pub(crate) fn run(_: usize, report: &mut crate::report::Report) -> anyhow::Result<()> {
+        report.remark("gpu: this build has no GPU; `cargo xtask bench gpu` makes one that has");
+        Ok(())
+    }
+}
+
+const GROUPS: [Group; 12] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",
@@ -46,6 +57,7 @@ const GROUPS: [Group; 11] = [
         what: "bytes against error: index maps, PNG, BC7, octahedral; rewrites docs/",
         run: size::run,
     },
+    Group { name: "gpu", what: "what a moved light costs before the GPU draws: time, bytes", run: gpu::run },
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "light", what: "a table lit sixteen normals at a time against one at a time", run: light::run },
     Group { name: "models", what: "a table's light against a frame's and against every pixel's", run: models::run },

@@ -9,6 +9,7 @@ mod npy;
 pub mod polar;
 mod random;
 mod skip;
+pub mod stages;
 
 pub use data::{shared_data, shared_file};
 pub use lengths::{LengthStats, length_stats};

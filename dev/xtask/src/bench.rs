@@ -28,9 +28,10 @@ pub(crate) struct Options {
 const NATIVE: &str = "RILIEVO_BENCH_NATIVE";
 
 pub(crate) fn run(options: &Options) -> Result<()> {
-    let raster = options.name.as_deref().is_none_or(|name| name == "raster") && !options.list;
+    let asked = |group: &str| options.name.as_deref().is_none_or(|name| name == group) && !options.list;
+    let raster = asked("raster");
     ensure!(raster || !options.native, "--native belongs to the group `raster`");
-    if options.name.as_deref().is_none_or(|name| name == "scale") && !options.list {
+    if asked("scale") {
         // Measured as users have it.
         Run::cargo().args(["build", "--release", "--quiet", "--package", "rilievo-cli"]).wait()?;
     }
@@ -39,8 +40,8 @@ pub(crate) fn run(options: &Options) -> Result<()> {
         run = run.env(NATIVE, native()?);
     }
     run.args(["run", "--release", "--quiet", "--package", "bench"])
-        // Software GPUs, through sixty crates that nothing else needs.
-        .args(raster.then_some("--features=gpu"))
+        // GPUs, through sixty crates that nothing else needs.
+        .args((raster || asked("gpu")).then_some("--features=gpu"))
         .arg("--")
         .args(&options.name)
         .args(options.json.then_some("--json"))

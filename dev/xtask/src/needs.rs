@@ -116,7 +116,6 @@ const TOOLS: &[Tool] = &[
         debian: Some("chromium"),
         hint: "install chromium",
     },
-    // The peers of `cargo xtask bench raster`: nothing but that looks for them, so nobody gets them unasked.
     Tool {
         name: "lavapipe",
         programs: &[
@@ -124,14 +123,15 @@ const TOOLS: &[Tool] = &[
             "/usr/share/vulkan/icd.d/lvp_icd.aarch64.json",
             "/usr/share/vulkan/icd.d/lvp_icd.json",
         ],
-        purpose: "a software GPU that the bench holds the renderer against",
-        without: Without::Fine,
-        debian: None,
-        hint: "on Debian or Ubuntu: apt-get install --no-install-recommends mesa-vulkan-drivers libvulkan1",
+        purpose: "a software GPU: the GPU renderer is tested on it, the CPU renderer measured against it",
+        without: Without::Skip,
+        debian: Some("mesa-vulkan-drivers libvulkan1"),
+        hint: "install Mesa's software Vulkan driver; tests take whatever GPU there is",
     },
     Tool {
         name: "SwiftShader",
         programs: &["/usr/lib/chromium/vk_swiftshader_icd.json"],
+        // A peer of `cargo xtask bench raster`: nothing but that looks for it, so nobody gets it unasked.
         purpose: "another software GPU that the bench holds the renderer against",
         without: Without::Fine,
         debian: None,
@@ -276,8 +276,8 @@ mod tests {
     }
 
     #[test]
-    fn drivers_are_nobody_s_duty_and_not_installed_unasked() {
-        let drivers = [tool("lavapipe"), tool("SwiftShader")];
+    fn a_peer_s_driver_is_nobody_s_duty_and_not_installed_unasked() {
+        let drivers = [tool("SwiftShader")];
         assert!(fatal(&drivers, true).is_empty());
         assert!(debian_packages(&drivers).is_empty());
     }

@@ -21,7 +21,7 @@ mod shade_table;
 #[cfg(test)]
 mod tests;
 
-pub use environment::{Environment, Projection};
+pub use environment::{Environment, EnvironmentCopy, Projection};
 pub(crate) use lanes::Prepared;
 pub use lights::{Light, Lighting};
 pub use material::{Layer, Material};

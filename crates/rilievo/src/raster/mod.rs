@@ -37,7 +37,7 @@ pub mod tile;
 pub mod vectors;
 
 pub use frame::{Frame, prepare};
-pub use reference::{bake_light_map, draw};
+pub use reference::{LitTables, bake_light_map, draw};
 pub use scene::{BaseColor, Detail, Method, Object, Scene};
 pub use target::{Target, average_samples};
 pub use texture::TextureFilter;

@@ -7,7 +7,8 @@ use rilievo::measure::picture_stats;
 use rilievo::raster::tile::{Options, Renderer, Samples, empty_picture};
 use rilievo::raster::{Method, Scene, Target, TextureFilter, draw, prepare};
 
-use crate::{levels, scenes};
+use crate::levels;
+use testkit::stages;
 
 /// Column and row of the samples among the 4 × 4 parts of a pixel.
 const PLACES: [[u32; 2]; 4] = [[1, 0], [3, 1], [0, 2], [2, 3]];
@@ -29,7 +30,7 @@ fn large(scene: &Scene<'_>, options: &Options, (width, height): (u32, u32), time
 
 #[test]
 fn samples_lie_where_they_should_and_outlines_are_smooth() {
-    for stage in [scenes::torus(), scenes::fine_sphere(), scenes::inside(), scenes::crowd()] {
+    for stage in [stages::torus(), stages::fine_sphere(), stages::inside(), stages::crowd()] {
         let (width, height) = stage.size;
         let one = Options { method: Method::Exact, filter: TextureFilter::Trilinear, ..Options::default() };
         let four = Options { samples: Samples::Four, ..one };
@@ -63,7 +64,7 @@ fn samples_lie_where_they_should_and_outlines_are_smooth() {
 
 #[test]
 fn outlines_blend_with_the_background_in_linear_light() {
-    let mut stage = scenes::torus();
+    let mut stage = stages::torus();
     stage.size = (130, 67);
     let background = LinearRgb::new(0.9, 0.1, 0.2);
     let options = Options {

@@ -3,7 +3,6 @@
 #![expect(clippy::unwrap_used, reason = "scenes fail loudly")]
 
 mod antialias;
-mod scenes;
 
 use fearless_simd::Level;
 use rilievo::LinearRgb;
@@ -11,7 +10,7 @@ use rilievo::color::Picture;
 use rilievo::raster::tile::{Options, Renderer, empty_picture};
 use rilievo::raster::vectors::{Midpoints, Order};
 use rilievo::raster::{Method, Scene, Target, TextureFilter, draw, prepare};
-use scenes::Stage;
+use testkit::stages::{self, Stage};
 
 /// Codes that a component may be off anywhere.
 const CODES: u8 = 2;
@@ -90,32 +89,32 @@ fn compare_all(stage: &Stage) {
 
 #[test]
 fn coarse_torus() {
-    compare_all(&scenes::torus());
+    compare_all(&stages::torus());
 }
 
 #[test]
 fn sphere_of_tiny_triangles() {
-    compare_all(&scenes::fine_sphere());
+    compare_all(&stages::fine_sphere());
 }
 
 #[test]
 fn from_inside_where_the_near_plane_cuts() {
-    compare_all(&scenes::inside());
+    compare_all(&stages::inside());
 }
 
 #[test]
 fn materials_colours_and_odd_maps() {
-    compare_all(&scenes::checkered());
+    compare_all(&stages::checkered());
 }
 
 #[test]
 fn several_objects_and_back_faces() {
-    compare_all(&scenes::crowd());
+    compare_all(&stages::crowd());
 }
 
 #[test]
 fn every_lighting_model() {
-    for stage in scenes::models() {
+    for stage in stages::models() {
         compare(&stage, Method::Exact, TextureFilter::Bilinear, Some(LinearRgb::gray(0.1)));
         compare(&stage, Method::Table, TextureFilter::Bilinear, Some(LinearRgb::gray(0.1)));
     }
@@ -123,7 +122,7 @@ fn every_lighting_model() {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let stage = scenes::crowd();
+    let stage = stages::crowd();
     let options = Options { method: Method::Exact, filter: TextureFilter::Trilinear, ..Options::default() };
     let scene = stage.scene(options.method).unwrap();
     let make = || {
@@ -140,7 +139,7 @@ fn threads_do_not_change_a_bit() {
 
 #[test]
 fn what_cannot_be_seen_is_counted() {
-    let stage = scenes::inside();
+    let stage = stages::inside();
     let scene = stage.scene(Method::Exact).unwrap();
     let options = Options { method: Method::Exact, ..Options::default() };
     let mut picture = empty_picture(stage.size.0, stage.size.1).unwrap();
@@ -156,7 +155,7 @@ fn what_cannot_be_seen_is_counted() {
 /// Sizes that are no multiple of a tile or a block, down to one pixel.
 #[test]
 fn odd_sizes() {
-    let mut stage = scenes::torus();
+    let mut stage = stages::torus();
     for size in [(1, 1), (3, 200), (65, 63), (130, 7), (64, 64)] {
         stage.size = size;
         let scene = stage.scene(Method::Exact).unwrap();

@@ -105,10 +105,29 @@ impl Environment {
         (level, if level == last { 0.0 } else { position - level as f32 })
     }
 
+    /// The copies, from sharp to blurred, evenly spaced in roughness: for renderers that look them up elsewhere.
+    ///
+    /// Each is a square from −1 to 1 both ways, up is up, with a border of one texel on each side: an octahedral map (Meyer et
+    /// al. 2010) whose middle is +Z, or the picture of a matcap.
+    pub fn copies(&self) -> impl ExactSizeIterator<Item = EnvironmentCopy<'_>> {
+        self.levels.iter().map(|l| EnvironmentCopy { width: l.width, height: l.height, texels: &l.texels })
+    }
+
     /// One of the copies.
     pub(super) fn level(&self, level: usize) -> &Level {
         &self.levels[level]
     }
+}
+
+/// One of [`Environment::copies`].
+#[derive(Debug, Clone)]
+pub struct EnvironmentCopy<'a> {
+    /// Texels across, without the border.
+    pub width: u32,
+    /// Texels down, without the border.
+    pub height: u32,
+    /// Row-major from the top, with the border: (`width` + 2) · (`height` + 2).
+    pub texels: &'a [LinearRgb],
 }
 
 /// Texels of a square (−1 … 1 both ways, up is up) with a border of one more on each side, so that no look-up asks where it

@@ -14,4 +14,5 @@ pub(super) use draw::{ScreenTriangle, base_color, set_up, shade};
 pub(super) use exact::Exact;
 pub(super) use interpolated::Interpolated;
 pub(super) use polar::Polar;
+pub use table::LitTables;
 pub(super) use table::Table;

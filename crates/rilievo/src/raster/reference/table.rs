@@ -5,16 +5,36 @@ use glam::Vec3;
 use crate::error::{Error, Result};
 use crate::indexed::{NormalTable, QuantizedMap};
 use crate::light::{Lighting, Shade, ShadeTable};
-use crate::normal::{Normal, Object as ObjectSpace};
+use crate::normal::{Normal, Object as ObjectSpace, World};
 use crate::raster::scene::{Detail, Fragment, Object};
 use crate::raster::texture::{Sampling, Taps};
+
+/// The tables of an object, lit for a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LitTables {
+    /// The shades of front faces.
+    pub front: ShadeTable,
+    /// For the reversed normals of back faces, if they are drawn.
+    pub back: Option<ShadeTable>,
+}
 
 /// An index map and its lit tables (Tarini et al. 2000, § 5).
 pub(in crate::raster) struct Table<'a> {
     map: &'a QuantizedMap<ObjectSpace>,
-    front: ShadeTable,
-    /// For the reversed normals of back faces, if they are drawn.
-    back: Option<ShadeTable>,
+    lit: LitTables,
+}
+
+impl LitTables {
+    /// Lights the tables of an object for an eye at `eye`, both in the world: what of a frame by the table method is not
+    /// look-up.
+    ///
+    /// # Errors
+    /// [`Error::Missing`] if the object has no index map, [`Error::IndexRange`] if its table names a material that is not
+    /// there.
+    pub fn new(object: &Object<'_>, lighting: &Lighting<World>, eye: Vec3) -> Result<Self> {
+        let lighting = lighting.to_object(&object.pose);
+        Ok(Table::new(object, &lighting, object.pose.point_to_object(eye))?.lit)
+    }
 }
 
 impl<'a> Table<'a> {
@@ -36,23 +56,23 @@ impl<'a> Table<'a> {
         } else {
             None
         };
-        Ok(Self { map, front, back })
+        Ok(Self { map, lit: LitTables { front, back } })
     }
 
     /// The shades of front faces.
     pub(in crate::raster) fn front(&self) -> &ShadeTable {
-        &self.front
+        &self.lit.front
     }
 
     /// The shades of back faces, if they are drawn.
     pub(in crate::raster) fn back(&self) -> Option<&ShadeTable> {
-        self.back.as_ref()
+        self.lit.back.as_ref()
     }
 
     /// Looks up each texel, then filters the colours: indices are never averaged.
     pub(in crate::raster) fn shade(&self, fragment: &Fragment, sampling: Sampling) -> Shade {
         let levels = self.map.indices();
-        let table = self.back.as_ref().filter(|_| fragment.back_facing).unwrap_or(&self.front);
+        let table = self.lit.back.as_ref().filter(|_| fragment.back_facing).unwrap_or(&self.lit.front);
         Taps::gather(levels, sampling, &fragment.footprint).iter().fold(Shade::default(), |sum, tap| {
             let index = levels.levels()[tap.level][(tap.x, tap.y)];
             sum.add_weighted(table.entries()[usize::from(index)], tap.weight)

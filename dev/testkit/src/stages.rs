@@ -1,16 +1,18 @@
-//! Scenes that are hard in their own ways.
+//! Scenes that are hard in their own ways, for whatever draws them.
+#![expect(clippy::unwrap_used, reason = "scenes fail loudly")]
 
 use glam::{Quat, Vec2, Vec3};
 use rilievo::height::{Filter, HeightMap, to_normals};
 use rilievo::light::{Bands, Blend, Landscape, Light, Lighting, LightingModel, Material};
 use rilievo::normal::{NormalLevels, decode_u8, encode_u8, normal_levels};
+use rilievo::polar::{BumpVectorMap, UnitKind};
 use rilievo::progress::Silent;
 use rilievo::quantize::{Effort, Options, quantize};
 use rilievo::raster::{BaseColor, Detail, Method, Object, Scene, bake_light_map};
-use rilievo::surface::{Camera, Deflect, Mesh, deflect_heights, shapes};
+use rilievo::surface::{Camera, Deflect, Mesh, deflect_heights, deflect_normals, shapes};
 use rilievo::{
-    Edges, Grid, LinearRgb, MaterialMap, MipChain, Normal, Object as ObjectSpace, Pose, QuantizedMap, Rgba8, Tangent,
-    World,
+    Edges, Grid, LinearRgb, MaterialMap, MipChain, Normal, NormalMap, Object as ObjectSpace, Pose, QuantizedMap, Rgba8,
+    Tangent, World,
 };
 
 /// A mesh with all kinds of maps.
@@ -27,14 +29,18 @@ struct Subject {
     pose: Pose,
     double_sided: bool,
     baked: MipChain<rilievo::light::Shade>,
+    /// For the units whose words are made of object-space normals, E2 and E3.
+    bumps: [BumpVectorMap; 2],
 }
 
 /// Something to draw.
-pub(crate) struct Stage {
-    pub(crate) name: &'static str,
-    pub(crate) size: (u32, u32),
+pub struct Stage {
+    /// What it is called in messages.
+    pub name: &'static str,
+    /// Width and height of its picture.
+    pub size: (u32, u32),
     /// Whether shades jump somewhere: a hair's breadth then decides on which side a pixel is.
-    pub(crate) has_steps: bool,
+    pub has_steps: bool,
     subjects: Vec<Subject>,
     lighting: Lighting<World>,
     camera: Camera,
@@ -42,22 +48,32 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// The scene as a method needs it; `None` where the method does not take its materials.
-    pub(crate) fn scene(&self, method: Method) -> Option<Scene<'_>> {
+    pub fn scene(&self, method: Method) -> Option<Scene<'_>> {
         let simple = |m: &Material| {
             m.layers().iter().all(|l| {
                 use LightingModel::{Ambient, BlinnPhong, Lambert};
                 matches!(l.model, Ambient { .. } | Lambert { .. } | BlinnPhong { .. })
             })
         };
-        let tangent_space = matches!(method, Method::Linear | Method::Normalized | Method::Quadratic { .. });
-        if tangent_space && !self.subjects.iter().flat_map(|s| &s.materials).all(simple) {
+        let two_vectors =
+            matches!(method, Method::Linear | Method::Normalized | Method::Quadratic { .. } | Method::Polar { .. });
+        if two_vectors && !self.subjects.iter().flat_map(|s| &s.materials).all(simple) {
             return None;
         }
-        Some(Scene {
-            objects: self.subjects.iter().map(|subject| subject.object(method)).collect(),
+        Some(self.scene_of(|subject| subject.object(method)))
+    }
+
+    /// The scene with index maps, whatever draws it.
+    pub fn indexed_scene(&self) -> Scene<'_> {
+        self.scene_of(|subject| subject.object(Method::Table))
+    }
+
+    fn scene_of<'a>(&'a self, object: impl Fn(&'a Subject) -> Object<'a>) -> Scene<'a> {
+        Scene {
+            objects: self.subjects.iter().map(object).collect(),
             lighting: self.lighting.clone(),
             camera: self.camera,
-        })
+        }
     }
 }
 
@@ -80,6 +96,8 @@ impl Subject {
         let flat = to_normals(&relief, Filter::Plane4, Edges::Wrap).map(|&n| decode_u8::<Tangent>(encode_u8(n)));
         let options = Deflect { repeat, ..Deflect::new((256, 192)) };
         let bent = deflect_heights(&mesh, &relief, None, Filter::Plane4, Edges::Wrap, &options, &Silent).unwrap();
+        let level = NormalMap::<Tangent>::filled(1, 1, Normal::Z).unwrap();
+        let plain = deflect_normals(&mesh, &level, None, &Deflect::new((256, 192)), &Silent).unwrap();
         let count = materials.len();
         let map = |(w, h): (u32, u32)| -> Option<MaterialMap> {
             (count > 1).then(|| Grid::from_fn(w, h, |x, y| ((x / 24 + y / 24) as usize % count) as u8).unwrap())
@@ -94,9 +112,14 @@ impl Subject {
             ..Options::default()
         };
         let indexed = quantize(&bent.normals, &quantizing, &Silent).unwrap().map;
+        let object = normal_levels(bent.normals, object_materials, Some(&bent.covered)).unwrap();
+        let plain = normal_levels(plain.normals, None, Some(&plain.covered)).unwrap().normals;
+        let bumps =
+            [UnitKind::E2, UnitKind::E3].map(|unit| BumpVectorMap::from_object(unit, &object.normals, &plain).unwrap());
         let mut subject = Self {
             tangent: normal_levels(flat, map(size), None).unwrap(),
-            object: normal_levels(bent.normals, object_materials, Some(&bent.covered)).unwrap(),
+            object,
+            bumps,
             indexed,
             color: None,
             materials,
@@ -116,6 +139,11 @@ impl Subject {
         let detail = match method {
             Method::Table => Detail::Indexed(&self.indexed),
             Method::Static => Detail::Baked(&self.baked),
+            Method::Polar { unit, .. } => Detail::Bump {
+                map: self.bumps.iter().find(|map| map.unit() == unit).expect("stages have maps for E2 and E3"),
+                repeat: Vec2::ONE,
+                materials: self.object.materials.as_ref(),
+            },
             Method::Exact if self.color.is_some() => {
                 Detail::Object { normals: &self.object.normals, materials: self.object.materials.as_ref() }
             }
@@ -160,7 +188,7 @@ fn around(mesh: &Mesh) -> Camera {
 }
 
 /// Large triangles and a relief that repeats.
-pub(crate) fn torus() -> Stage {
+pub fn torus() -> Stage {
     let mesh = shapes::torus(12, 12, 1.0, 0.45).unwrap();
     let subject = Subject::new(mesh, (64, 64), [4.0, 2.0], vec![glossy()], &lighting());
     let camera = around(&subject.mesh);
@@ -168,7 +196,7 @@ pub(crate) fn torus() -> Stage {
 }
 
 /// Triangles of a pixel or less.
-pub(crate) fn fine_sphere() -> Stage {
+pub fn fine_sphere() -> Stage {
     let mesh = shapes::sphere(160, 80).unwrap();
     let subject = Subject::new(mesh, (128, 64), [1.0, 1.0], vec![glossy()], &lighting());
     let camera = around(&subject.mesh);
@@ -176,7 +204,7 @@ pub(crate) fn fine_sphere() -> Stage {
 }
 
 /// The eye stands in the tube: triangles behind it, through the near plane, and far beyond the picture.
-pub(crate) fn inside() -> Stage {
+pub fn inside() -> Stage {
     let mesh = shapes::torus(24, 16, 1.0, 0.45).unwrap();
     let mut subject = Subject::new(mesh, (64, 64), [4.0, 2.0], vec![glossy()], &lighting());
     subject.double_sided = true;
@@ -185,7 +213,7 @@ pub(crate) fn inside() -> Stage {
 }
 
 /// Materials that change within a pixel's reach, a base colour, maps whose sides are no powers of two, edges that do not wrap.
-pub(crate) fn checkered() -> Stage {
+pub fn checkered() -> Stage {
     let mesh = shapes::sphere(24, 12).unwrap();
     let materials = vec![glossy(), Material::MATTE_WHITE, Material::matte(LinearRgb::new(0.1, 0.2, 0.6))];
     let mut subject = Subject::new(mesh, (90, 70), [1.0, 1.0], materials, &lighting());
@@ -198,7 +226,7 @@ pub(crate) fn checkered() -> Stage {
 }
 
 /// Objects that stand in each other, turned, scaled, seen from behind.
-pub(crate) fn crowd() -> Stage {
+pub fn crowd() -> Stage {
     let light = lighting();
     let mut torus =
         Subject::new(shapes::torus(16, 10, 1.0, 0.4).unwrap(), (64, 64), [4.0, 2.0], vec![glossy()], &light);
@@ -215,7 +243,7 @@ pub(crate) fn crowd() -> Stage {
 }
 
 /// A sphere for every lighting model.
-pub(crate) fn models() -> Vec<Stage> {
+pub fn models() -> Vec<Stage> {
     let white = LinearRgb::gray(0.6);
     let models = [
         ("phong", LightingModel::Phong { color: white, shininess: 20.5 }),
