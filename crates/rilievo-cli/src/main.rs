@@ -30,6 +30,7 @@ Start here:
   rilievo quantize bricks_normal_gl.png -n 256     normal map -> indexed PNG, relightable by its palette
   rilievo relight bricks_normal_gl_256.png --light -60,30
   rilievo render sphere --height earth.png --depth 0.01
+  rilievo view                                     a window to turn, light and compare in
 
 Exit codes: 0 done; 1 a negative answer (a comparison over its threshold); 2 wrong usage; 3 cannot read or write;
 4 bad input file; 5 unsupported.";
@@ -56,6 +57,7 @@ enum Command {
     Render(Box<commands::render::Args>),
     Compare(commands::compare::Args),
     Polar(commands::polar::Args),
+    View(commands::view::Args),
     Demo(commands::demo::Args),
     Reproduce(commands::reproduce::Args),
     Completions(commands::completions::Args),
@@ -84,6 +86,7 @@ fn run(cli: Cli, given: &Given) -> anyhow::Result<Outcome> {
         Command::Render(args) => commands::render::run(&args, given),
         Command::Compare(args) => commands::compare::run(&args, given),
         Command::Polar(args) => commands::polar::run(&args),
+        Command::View(args) => commands::view::run(args),
         Command::Demo(args) => commands::demo::run(&args),
         Command::Reproduce(args) => commands::reproduce::run(&args, given),
         Command::Completions(args) => commands::completions::run(&args),

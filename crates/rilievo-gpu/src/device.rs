@@ -100,6 +100,11 @@ impl Gpu {
         }
     }
 
+    /// The adapter's own name.
+    pub fn short_name(&self) -> &str {
+        &self.about.name
+    }
+
     /// The device.
     pub fn device(&self) -> &Device {
         &self.device

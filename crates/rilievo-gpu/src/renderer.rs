@@ -20,7 +20,6 @@ pub struct Renderer {
     gpu: Gpu,
     pipelines: Pipelines,
     blank: Blank,
-    timer: Option<Timer>,
 }
 
 /// The objects of a scene in the memory of the GPU, for one method and filter.
@@ -30,6 +29,7 @@ pub struct Loaded {
     method: Method,
     filter: TextureFilter,
     objects: Vec<LoadedObject>,
+    timer: Option<Timer>,
     ready: bool,
 }
 
@@ -55,7 +55,7 @@ pub struct Uploaded {
 impl Renderer {
     /// A renderer on a device.
     pub fn new(gpu: &Gpu) -> Self {
-        Self { gpu: gpu.clone(), pipelines: Pipelines::new(gpu), blank: Blank::new(gpu), timer: Timer::new(gpu) }
+        Self { gpu: gpu.clone(), pipelines: Pipelines::new(gpu), blank: Blank::new(gpu) }
     }
 
     /// The device it draws on.
@@ -75,7 +75,7 @@ impl Renderer {
         method.check(scene)?;
         let load = |object| LoadedObject::new(&self.gpu, scene, object, (method, filter));
         let objects = scene.objects.iter().map(load).collect::<Result<_>>()?;
-        Ok(Loaded { method, filter, objects, ready: false })
+        Ok(Loaded { method, filter, objects, timer: Timer::new(&self.gpu), ready: false })
     }
 
     /// Lights a frame: tables, lights, materials where they changed, poses and the camera go to the GPU.
@@ -114,7 +114,7 @@ impl Renderer {
             a: channel(c.a),
         });
         // One that still waits for its answer measures nothing.
-        let timer = self.timer.as_ref().filter(|timer| timer.writes().is_some());
+        let timer = loaded.timer.as_ref().filter(|timer| timer.writes().is_some());
         let mut encoder = self.gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             color_attachments: &[Some(RenderPassColorAttachment {
@@ -145,9 +145,9 @@ impl Renderer {
         }
     }
 
-    /// How long the GPU drew the last frame it has told about; none where it cannot tell.
-    pub fn draw_time(&self) -> Option<Duration> {
-        let timer = self.timer.as_ref()?;
+    /// How long the GPU drew the last frame of a scene that it has told about; none where it cannot tell.
+    pub fn draw_time(&self, loaded: &Loaded) -> Option<Duration> {
+        let timer = loaded.timer.as_ref()?;
         self.gpu.poll();
         timer.last()
     }

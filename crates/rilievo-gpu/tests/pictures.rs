@@ -108,7 +108,6 @@ fn compare_scene(renderer: &Renderer, stage: &Stage, scene: &Scene<'_>, method: 
     let told = format!("{}-{method:?}-{filter:?}", stage.name);
     keep(&expected, &found, &told);
     let difference = difference(&expected, &found);
-    println!("{told}: {difference:?}");
     let tolerance = Tolerance::of(renderer.gpu());
     assert!(difference.over <= tolerance.share_over, "{told}: {difference:?}");
     assert!(difference.flip <= tolerance.flip, "{told}: {difference:?}");
@@ -202,7 +201,7 @@ fn objects_stay_and_frames_follow_each_other() {
         assert_ne!(last.as_ref(), Some(&found));
         last = Some(found);
     }
-    assert!(renderer.draw_time().is_none_or(|t| t.as_secs() < 60));
+    assert!(renderer.draw_time(&loaded).is_none_or(|t| t.as_secs() < 60));
 }
 
 #[test]

@@ -16,6 +16,19 @@ pub(crate) fn cpu_seconds() -> f64 {
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
+/// Seconds of processor time, user and system, that this thread has used: a software GPU works on threads of its own.
+#[cfg(all(unix, feature = "gpu"))]
+pub(crate) fn thread_seconds() -> f64 {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+}
+
+/// Seconds since the first call.
+#[cfg(all(not(unix), feature = "gpu"))]
+pub(crate) fn thread_seconds() -> f64 {
+    wall_seconds()
+}
+
 /// Seconds of processor time, user and system, of the programs that this process has run and waited for.
 ///
 /// From `/proc/self/stat`, in hundredths of a second: enough for programs that run for a tenth and more. Elsewhere the

@@ -3,6 +3,8 @@
 
 pub mod browser;
 mod data;
+#[cfg(target_os = "linux")]
+pub mod display;
 pub mod golden;
 mod lengths;
 mod npy;

@@ -117,6 +117,14 @@ const TOOLS: &[Tool] = &[
         hint: "install chromium",
     },
     Tool {
+        name: "Xvfb",
+        programs: &["Xvfb"],
+        purpose: "a display without a screen, on which the viewer's window is tested",
+        without: Without::Skip,
+        debian: Some("xvfb libx11-xcb1 libxkbcommon-x11-0 libxcursor1 libxi6"),
+        hint: "install Xvfb and the X libraries that windows are opened with",
+    },
+    Tool {
         name: "lavapipe",
         programs: &[
             "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",

@@ -142,22 +142,26 @@ fn fmt() -> Result<()> {
     Run::cargo().args(["fmt", "--all", "--check"]).wait()
 }
 
+/// The program with its window: what is left out of the plain one is little, and the `demo` step builds that.
+const WITH_WINDOW: &str = "--features=rilievo-cli/view";
+
 fn clippy() -> Result<()> {
-    Run::cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]).wait()
+    Run::cargo().args(["clippy", "--workspace", WITH_WINDOW, "--all-targets", "--", "-D", "warnings"]).wait()
 }
 
 fn tests(log: &SkipLog) -> Result<()> {
     let run = Run::cargo().env(VARIABLE, log.path());
     if has_cargo_command("nextest") {
         let profile = if is_ci() { "ci" } else { "default" };
-        run.args(["nextest", "run", "--workspace", "--profile", profile]).wait()
+        run.args(["nextest", "run", "--workspace", WITH_WINDOW, "--profile", profile]).wait()
     } else {
-        run.args(["test", "--workspace", "--lib", "--bins", "--tests", "--examples", "--no-fail-fast"]).wait()
+        run.args(["test", "--workspace", WITH_WINDOW, "--lib", "--bins", "--tests", "--examples", "--no-fail-fast"])
+            .wait()
     }
 }
 
 fn doctests(log: &SkipLog) -> Result<()> {
-    Run::cargo().env(VARIABLE, log.path()).args(["test", "--workspace", "--doc"]).wait()
+    Run::cargo().env(VARIABLE, log.path()).args(["test", "--workspace", WITH_WINDOW, "--doc"]).wait()
 }
 
 /// The same tests, golden bits among them, on one thread of execution: rayon must change no bit.
@@ -172,7 +176,7 @@ fn one_thread(log: &SkipLog) -> Result<()> {
 }
 
 fn docs() -> Result<()> {
-    Run::cargo().env("RUSTDOCFLAGS", "-D warnings").args(["doc", "--workspace", "--no-deps"]).wait()
+    Run::cargo().env("RUSTDOCFLAGS", "-D warnings").args(["doc", "--workspace", WITH_WINDOW, "--no-deps"]).wait()
 }
 
 #[cfg(test)]

@@ -9,3 +9,4 @@ pub(crate) mod quantize;
 pub(crate) mod relight;
 pub(crate) mod render;
 pub(crate) mod reproduce;
+pub(crate) mod view;

@@ -15,3 +15,5 @@ mod reproduce;
 mod runner;
 mod scene;
 mod usage;
+#[cfg(all(target_os = "linux", feature = "view"))]
+mod view;

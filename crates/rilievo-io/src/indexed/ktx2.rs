@@ -1,12 +1,10 @@
 //! KTX2 in and out (KTX File Format Specification 2.0, Khronos Data Format 1.3).
 
-use std::io::Read;
-
 use ktx2::{Format, Header, Index, LevelIndex, Reader, SupercompressionScheme};
 use rilievo::{Convention, Grid, MipChain, QuantizedMap, Space};
-use zstd::zstd_safe::CParameter;
 
 use super::record::Record;
+use super::zstandard::{compress_frame, decompress};
 use super::{AnyIndexed, ImportAs, IndexedFile, disagreements};
 use crate::error::{Error, Result};
 use crate::limits::Limits;
@@ -15,8 +13,6 @@ use crate::source::Source;
 const NAME: &str = "KTX2 to be written";
 /// The key of the table record.
 const TABLE_KEY: &str = "rilievo:table";
-/// Slow to write, as fast to read as any other.
-const ZSTD_LEVEL: i32 = 19;
 /// A level longer than this is several frames (RFC 8878, § 3: data is one or more of them). At this level the search for
 /// matches outgrows the caches: twice the time per byte for 64 MiB in one frame, for 5 % less.
 const FRAME_BYTES: usize = 4 << 20;
@@ -91,16 +87,6 @@ pub(super) fn decode(source: &Source, import: &ImportAs, limits: &Limits) -> Res
     Ok(IndexedFile { map, convention: record.convention, warnings })
 }
 
-/// Unpacks a level; memory grows with what is really there, and stops one byte past what is expected.
-fn decompress(data: &[u8], expected: usize) -> std::io::Result<Vec<u8>> {
-    let mut unpacked = Vec::new();
-    let mut decoder = zstd::stream::read::Decoder::with_buffer(data)?;
-    // 128 MiB, what every decoder must accept at most: a frame cannot ask for more.
-    decoder.window_log_max(27)?;
-    decoder.take(expected as u64 + 1).read_to_end(&mut unpacked)?;
-    Ok(unpacked)
-}
-
 /// All levels as a KTX2: R8_UINT for up to 256 entries, R16_UINT above, Zstandard-compressed level by level (frames of 4 MiB), with the
 /// table under the key `rilievo:table`.
 ///
@@ -170,9 +156,7 @@ fn compress(texels: &[u16], texel_bytes: usize) -> std::io::Result<Vec<u8>> {
             1 => frames[frame].iter().map(|&i| i as u8).collect(),
             _ => frames[frame].iter().flat_map(|i| i.to_le_bytes()).collect(),
         };
-        let mut compressor = zstd::bulk::Compressor::new(ZSTD_LEVEL)?;
-        compressor.set_parameter(CParameter::ChecksumFlag(true))?;
-        compressor.compress(&raw)
+        compress_frame(&raw)
     });
     Ok(packed.into_iter().collect::<std::io::Result<Vec<_>>>()?.concat())
 }

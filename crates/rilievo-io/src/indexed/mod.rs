@@ -27,6 +27,7 @@ mod ktx2;
 mod palette;
 mod png;
 mod record;
+mod zstandard;
 
 pub use self::ktx2::encode_ktx2;
 pub use self::png::encode_indexed_png;

@@ -1,0 +1,143 @@
+//! The window of `rilievo view`, on a real display.
+
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use rilievo::Rgba8;
+use rilievo::color::Picture;
+use testkit::display::Display;
+
+use crate::runner::Room;
+
+/// Button that turns the object.
+const LEFT: u8 = 1;
+/// Button that moves the light.
+const RIGHT: u8 = 3;
+/// Where the picture is, left of the panel: columns and rows.
+const STAGE: [std::ops::Range<u32>; 2] = [40..860, 60..720];
+
+/// The window, closed with the test.
+struct Window(Child);
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn open(display: &Display, room: &Room, arguments: &str) -> Window {
+    let child = Command::new(env!("CARGO_BIN_EXE_rilievo"))
+        .arg("view")
+        .args(arguments.split_whitespace())
+        .current_dir(room.path("."))
+        .env("DISPLAY", display.name())
+        .env_remove("WAYLAND_DISPLAY")
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    Window(child)
+}
+
+/// Where the stage shows something warm: bricks and clay, not the gray ground.
+fn warm(picture: &Picture) -> Vec<(u32, u32)> {
+    let [columns, rows] = STAGE;
+    let at = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+    at.filter(|&at| i32::from(picture[at].r) > i32::from(picture[at].b) + 24).collect()
+}
+
+fn is_drawn(picture: &Picture) -> bool {
+    warm(picture).len() > 40_000
+}
+
+fn brightness(picture: &Picture) -> f64 {
+    let warm = warm(picture);
+    let sum: f64 = warm.iter().map(|&at| f64::from(picture[at].r)).sum();
+    sum / warm.len().max(1) as f64
+}
+
+/// Pixels of the stage that differ by more than rounding.
+fn changed(a: &Picture, b: &Picture) -> usize {
+    let [columns, rows] = STAGE;
+    let off = |a: Rgba8, b: Rgba8| a.rgb().iter().zip(b.rgb()).any(|(&a, b)| a.abs_diff(b) > 6);
+    rows.flat_map(|y| columns.clone().map(move |x| (x, y))).filter(|&at| off(a[at], b[at])).count()
+}
+
+/// Pictures for the eye, in a folder that is named by the environment.
+fn keep(picture: &Picture, name: &str) {
+    let Some(folder) = std::env::var_os("RILIEVO_KEEP_PICTURES") else { return };
+    let png = rilievo_io::encode_picture_png(picture).unwrap();
+    std::fs::write(Path::new(&folder).join(name), png).unwrap();
+}
+
+/// Turned, lit, switched and compared, as a hand does it.
+fn uses(extra: &str, name: &str) {
+    let Some(display) = Display::start() else { return };
+    let room = Room::new();
+    let _window = open(&display, &room, &format!("--sample bricks -n 256 {extra}"));
+    display.wait_for("the wall", is_drawn);
+    let first = display.wait_until_still();
+    keep(&first, &format!("{name}-first.png"));
+
+    // Light from the left, drawn far to the right: what was dark is bright.
+    display.drag(RIGHT, (300, 400), (420, 400));
+    let relit = display.wait_until_still();
+    keep(&relit, &format!("{name}-relit.png"));
+    assert!(changed(&first, &relit) > 20_000, "{name}: the light moves {} pixels", changed(&first, &relit));
+    let outline = warm(&first).len() as f64 / warm(&relit).len() as f64;
+    assert!((0.7..1.4).contains(&outline), "{name}: the object stays where it is, {outline}");
+
+    display.drag(LEFT, (300, 400), (380, 430));
+    let turned = display.wait_until_still();
+    keep(&turned, &format!("{name}-turned.png"));
+    assert!(changed(&relit, &turned) > 20_000, "{name}: the object turns");
+
+    // Key 2 is the exact method: nearly the same picture, and not the same.
+    display.key(u32::from(b'2'));
+    let exact = display.wait_until_still();
+    keep(&exact, &format!("{name}-exact.png"));
+    let off = (brightness(&exact) - brightness(&turned)).abs();
+    assert!(changed(&turned, &exact) > 100 && off < 8.0, "{name}: {} pixels, {off}", changed(&turned, &exact));
+}
+
+#[test]
+fn a_window_drawn_by_the_gpu() {
+    uses("", "gpu");
+}
+
+#[test]
+fn a_window_drawn_by_the_cpu() {
+    uses("--cpu", "cpu");
+}
+
+#[test]
+fn a_height_map_is_shown_and_a_bad_file_is_told() {
+    let Some(display) = Display::start() else { return };
+    let room = Room::new();
+    room.bump_normals("n.png");
+    let _window = open(&display, &room, "n.png -n 64 --on sphere --compare exact");
+    // Gray as it is, it differs from the ground.
+    let seen = display.wait_for("a sphere", |p| {
+        let bright = |at| p[at].g > 90;
+        (200..700).filter(|&x| bright((x, 380))).count() > 60
+    });
+    keep(&seen, "sphere.png");
+    room.run("view missing.png").fails(3, &["missing.png"]);
+    room.run("view n.png n.png").fails(2, &["one mesh and one map"]);
+}
+
+#[test]
+fn without_a_display_there_is_a_message() {
+    let room = Room::new();
+    let output = Command::new(env!("CARGO_BIN_EXE_rilievo"))
+        .arg("view")
+        .current_dir(room.path("."))
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{stderr}");
+    assert!(stderr.contains("no window can be opened") && stderr.contains("rilievo render"), "{stderr}");
+}

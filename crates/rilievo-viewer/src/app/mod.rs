@@ -1,0 +1,323 @@
+//! The window: a picture in the middle, what it depends on beside it.
+
+mod files;
+mod pane;
+mod panel;
+mod picture;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use eframe::egui;
+use eframe::egui_wgpu::RenderState;
+use rilievo::measure::picture_stats;
+use rilievo::raster::TextureFilter;
+use rilievo_gpu::{Gpu, Renderer};
+use web_time::Instant;
+
+use self::files::Inbox;
+use self::pane::Pane;
+use crate::job::Job;
+use crate::look::{Finish, Lamp, Look, Orbit, Way};
+use crate::subject::{File, Recipe, Subject, Surface};
+
+/// Seconds without a change after which two pictures are compared.
+const SETTLED: f32 = 0.2;
+/// Narrower than this, in points, the panel lies below the picture.
+const NARROW: f32 = 720.0;
+
+/// What draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Engine {
+    Gpu,
+    Cpu,
+}
+
+/// What a drag turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Drag {
+    #[default]
+    Object,
+    Light,
+}
+
+/// How two pictures differ.
+#[derive(Debug, Clone, Copy)]
+struct Difference {
+    psnr_db: f64,
+    max_abs: u8,
+}
+
+/// What the window starts with.
+#[derive(Debug, Clone, Default)]
+pub struct Start {
+    /// What to open; the vase without it.
+    pub files: Vec<File>,
+    /// What to make of it.
+    pub recipe: Recipe,
+    /// How to draw it.
+    pub way: Way,
+    /// What to compare it with.
+    pub other: Option<Way>,
+    /// Whether to draw by CPU though there is a GPU.
+    pub by_cpu: bool,
+    /// What the user should know at once.
+    pub notes: Vec<String>,
+    /// Where a viewer says that its graphics device is gone, and closes: only a new window has a new device.
+    pub lost: Arc<AtomicBool>,
+}
+
+/// The viewer.
+pub struct Viewer {
+    recipe: Recipe,
+    job: Option<Job>,
+    subject: Option<Arc<Subject>>,
+    look: Look,
+    engine: Engine,
+    gpu: Option<Renderer>,
+    render_state: Option<RenderState>,
+    panes: [Pane; 2],
+    drag: Drag,
+    spins: bool,
+    notes: Vec<String>,
+    lost: Arc<AtomicBool>,
+    inbox: Inbox,
+    difference: Option<Difference>,
+    /// When something last changed in the picture.
+    changed: Instant,
+}
+
+impl Viewer {
+    /// A viewer on the window's own device, if it has one.
+    pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
+        let state = context.wgpu_render_state.clone();
+        let gpu = state.as_ref().map(|state| {
+            let gpu = Gpu::from_device(state.device.clone(), state.queue.clone(), state.adapter.get_info());
+            Renderer::new(&gpu)
+        });
+        let mut notes = start.notes;
+        if gpu.is_none() {
+            notes.push("There is no GPU to draw on: the CPU draws.".to_owned());
+        }
+        let look = Look {
+            way: start.way,
+            other: start.other.map(|way| (way, 0.5)),
+            filter: TextureFilter::Trilinear,
+            finishes: Vec::new(),
+            orbit: Orbit::default(),
+            lamp: Lamp::default(),
+            colored: true,
+        };
+        let mut viewer = Self {
+            recipe: start.recipe,
+            job: None,
+            subject: None,
+            look,
+            engine: if gpu.is_none() || start.by_cpu { Engine::Cpu } else { Engine::Gpu },
+            gpu,
+            render_state: state,
+            panes: Default::default(),
+            drag: Drag::default(),
+            spins: false,
+            notes,
+            lost: start.lost,
+            inbox: Inbox::default(),
+            difference: None,
+            changed: Instant::now(),
+        };
+        for file in start.files {
+            viewer.take_in(file);
+        }
+        viewer.make(&context.egui_ctx);
+        viewer
+    }
+
+    /// A file becomes the mesh or the map.
+    fn take_in(&mut self, file: File) {
+        if file.is_mesh() {
+            self.recipe.surface = Surface::Mesh(file);
+        } else {
+            self.recipe.map = Some(file);
+        }
+        self.recipe.sample = None;
+    }
+
+    /// Begins to make what the recipe says.
+    fn make(&mut self, context: &egui::Context) {
+        let again = context.clone();
+        self.job = Some(Job::begin(self.recipe.clone(), move || again.request_repaint()));
+    }
+
+    fn poll(&mut self, context: &egui::Context) {
+        let arrived = self.inbox.take();
+        if !arrived.is_empty() {
+            for file in arrived {
+                match file {
+                    Ok(file) => self.take_in(file),
+                    Err(why) => self.notes.push(why),
+                }
+            }
+            self.make(context);
+        }
+        let Some(made) = self.job.as_ref().and_then(Job::take) else { return };
+        self.job = None;
+        match made {
+            Ok(subject) => self.show(subject),
+            Err(why) => self.notes.push(why),
+        }
+    }
+
+    fn show(&mut self, subject: Subject) {
+        self.notes.clone_from(&subject.notes);
+        let same_kind = self.subject.as_ref().is_some_and(|s| s.name == subject.name);
+        // What the user made of the materials stays when the same thing is made anew.
+        if !same_kind || self.look.finishes.len() < subject.material_count() {
+            let default = subject.materials.first().cloned().unwrap_or_default();
+            let count = subject.material_count().max(subject.materials.len());
+            let material = |i: usize| Finish::of(subject.materials.get(i).unwrap_or(&default));
+            self.look.finishes = (0..count).map(material).collect();
+            self.look.orbit = Orbit::default();
+        }
+        if subject.can(self.look.way).is_err() {
+            let first = Way::ALL.into_iter().find(|&way| subject.can(way).is_ok());
+            self.look.way = first.unwrap_or(Way::Exact);
+        }
+        if self.look.other.is_some_and(|(way, _)| subject.can(way).is_err()) {
+            self.look.other = None;
+        }
+        self.subject = Some(Arc::new(subject));
+        self.touch();
+    }
+
+    /// Something in the picture is another.
+    fn touch(&mut self) {
+        self.changed = Instant::now();
+        self.difference = None;
+    }
+
+    /// Draws both panes, if they show something else now.
+    fn draw(&mut self, context: &egui::Context, size: (u32, u32)) {
+        let Some(subject) = self.subject.clone() else { return };
+        let ways = [Some(self.look.way), self.look.other.map(|o| o.0)];
+        let state = self.render_state.clone();
+        let mut drawn = false;
+        for (pane, way) in self.panes.iter_mut().zip(ways) {
+            let Some(way) = way else { continue };
+            pane.prepare(&subject, &self.look, way, size);
+            let painted = match (self.engine, &self.gpu, &state) {
+                (Engine::Gpu, Some(renderer), Some(state)) => pane.draw_on_gpu(renderer, state, &self.look, size),
+                _ => Ok(pane.draw_on_cpu(context, &self.look, size)),
+            };
+            match painted {
+                Ok(anew) => drawn |= anew,
+                Err(error) => {
+                    self.notes.push(format!("{error}. The CPU draws from now on."));
+                    self.engine = Engine::Cpu;
+                    // The window's own pictures are drawn by the same device.
+                    self.lost.store(true, Ordering::Relaxed);
+                    context.send_viewport_cmd(egui::ViewportCommand::Close);
+                }
+            }
+        }
+        if drawn {
+            self.touch();
+            // The figures below the picture are those of the frame before, and the GPU tells its time later.
+            context.request_repaint_after(std::time::Duration::from_millis(100));
+        }
+        self.compare(context);
+    }
+
+    /// Compares the two pictures once they stay as they are.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn compare(&mut self, context: &egui::Context) {
+        if self.look.other.is_none() || self.difference.is_some() {
+            return;
+        }
+        let waited = self.changed.elapsed().as_secs_f32();
+        if waited < SETTLED {
+            context.request_repaint_after(std::time::Duration::from_secs_f32(SETTLED - waited));
+            return;
+        }
+        let [left, right] = &self.panes;
+        let pictures =
+            pollster::block_on(left.picture(self.engine)).zip(pollster::block_on(right.picture(self.engine)));
+        let Some((left, right)) = pictures else { return };
+        if let Ok(stats) = picture_stats(&right, &left) {
+            self.difference = Some(Difference { psnr_db: stats.psnr_db, max_abs: stats.max_abs });
+            context.request_repaint();
+        }
+    }
+
+    fn keys(&mut self, context: &egui::Context) {
+        use egui::Key;
+        if context.egui_wants_keyboard_input() {
+            return;
+        }
+        const NUMBERS: [Key; 9] =
+            [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+        let step = 0.06;
+        context.input(|input| {
+            let across = f32::from(input.key_down(Key::ArrowRight)) - f32::from(input.key_down(Key::ArrowLeft));
+            let up = f32::from(input.key_down(Key::ArrowUp)) - f32::from(input.key_down(Key::ArrowDown));
+            if across != 0.0 || up != 0.0 {
+                match input.modifiers.shift || self.drag == Drag::Light {
+                    true => self.look.lamp.turn(across * step, up * step),
+                    false => self.look.orbit.turn(across * step, up * step),
+                }
+            }
+            if input.key_pressed(Key::Plus) || input.key_pressed(Key::Equals) {
+                self.look.orbit.zoom(0.9);
+            }
+            if input.key_pressed(Key::Minus) {
+                self.look.orbit.zoom(1.0 / 0.9);
+            }
+            if input.key_pressed(Key::L) {
+                self.drag = if self.drag == Drag::Light { Drag::Object } else { Drag::Light };
+            }
+            if input.key_pressed(Key::Space) {
+                self.spins = !self.spins;
+            }
+            if input.key_pressed(Key::S) {
+                self.toggle_split();
+            }
+            for (key, way) in NUMBERS.into_iter().zip(Way::ALL) {
+                let allowed = self.subject.as_ref().is_some_and(|s| s.can(way).is_ok()) && self.look.suits(way);
+                if input.key_pressed(key) && allowed {
+                    self.look.way = way;
+                }
+            }
+        });
+    }
+
+    fn toggle_split(&mut self) {
+        let other = if self.look.way == Way::Exact { Way::Table } else { Way::Exact };
+        self.look.other = if self.look.other.is_some() { None } else { Some((other, 0.5)) };
+    }
+}
+
+impl eframe::App for Viewer {
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        self.inbox.collect(&context);
+        self.poll(&context);
+        self.keys(&context);
+        if self.spins {
+            let seconds = context.input(|i| i.stable_dt).min(0.1);
+            self.look.lamp.turn(seconds * 1.2, 0.0);
+            context.request_repaint();
+        }
+        let narrow = context.content_rect().width() < NARROW;
+        egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
+        if narrow {
+            let height = context.content_rect().height() * 0.42;
+            egui::Panel::bottom("panel").default_size(height).resizable(true).show(ui, |ui| self.panel(ui));
+        } else {
+            egui::Panel::right("panel").default_size(300.0).resizable(true).show(ui, |ui| self.panel(ui));
+        }
+        egui::CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
+        let stage = self.job.as_ref().map(|job| job.meter().read());
+        if let Some((stage, share)) = stage {
+            self.waiting(&context, &stage, share);
+        }
+    }
+}

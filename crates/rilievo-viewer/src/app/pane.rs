@@ -1,0 +1,139 @@
+//! One of the two pictures that lie side by side.
+
+use std::sync::Arc;
+
+use eframe::egui::{self, TextureHandle, TextureId, TextureOptions};
+use eframe::egui_wgpu::RenderState;
+use eframe::wgpu::FilterMode;
+use rilievo::color::Picture;
+use rilievo_gpu::Renderer;
+
+use super::Engine;
+use crate::canvas::{CpuSide, GpuSide, Set, Times};
+use crate::look::{Look, Way};
+use crate::subject::Subject;
+
+/// What a picture was drawn of.
+#[derive(PartialEq)]
+struct Drawn {
+    look: Look,
+    size: (u32, u32),
+    engine: Engine,
+}
+
+/// A way of drawing with its picture.
+#[derive(Default)]
+pub(super) struct Pane {
+    set: Option<Arc<Set>>,
+    /// Why there is none.
+    pub(super) why_not: Option<String>,
+    gpu: GpuSide,
+    cpu: CpuSide,
+    texture: Option<TextureId>,
+    handle: Option<TextureHandle>,
+    drawn: Option<Drawn>,
+    pub(super) times: Times,
+}
+
+impl Pane {
+    /// Makes what the way needs of the subject, unless it is there.
+    pub(super) fn prepare(&mut self, subject: &Arc<Subject>, look: &Look, way: Way, size: (u32, u32)) {
+        if self.set.as_ref().is_some_and(|set| set.fits(subject, look, way)) {
+            return;
+        }
+        self.drawn = None;
+        match Set::new(subject, look, way, size) {
+            Ok(set) => (self.set, self.why_not) = (Some(Arc::new(set)), None),
+            Err(why) => (self.set, self.why_not) = (None, Some(why)),
+        }
+    }
+
+    /// Whether the picture shows something else than it should.
+    fn is_stale(&mut self, look: &Look, size: (u32, u32), engine: Engine) -> bool {
+        // Where the two pictures meet, and what the other one is, does not matter to this one.
+        let look = Look { other: None, ..look.clone() };
+        let now = Drawn { look, size, engine };
+        let stale = self.drawn.as_ref() != Some(&now);
+        self.drawn = Some(now);
+        stale
+    }
+
+    /// Draws a frame if need be; says whether it did.
+    pub(super) fn draw_on_gpu(
+        &mut self,
+        renderer: &Renderer,
+        state: &RenderState,
+        look: &Look,
+        size: (u32, u32),
+    ) -> Result<bool, rilievo_gpu::Error> {
+        renderer.gpu().check()?;
+        let Some(set) = self.set.clone() else { return Ok(false) };
+        if !self.is_stale(look, size, Engine::Gpu) {
+            self.times.draw = self.gpu.draw_time(renderer);
+            return Ok(false);
+        }
+        let drawn = self.gpu.draw(renderer, &set, look, size);
+        let (times, is_new) = match drawn {
+            Ok(drawn) => drawn,
+            // The GPU is well, but does not do this: the picture stays away and says why.
+            Err(error @ (rilievo_gpu::Error::Unsupported { .. } | rilievo_gpu::Error::Limit { .. })) => {
+                (self.why_not, self.set) = (Some(error.to_string()), None);
+                return Ok(false);
+            }
+            Err(error) => return Err(error),
+        };
+        self.times = times;
+        if let Some(target) = self.gpu.target().filter(|_| is_new || self.texture.is_none()) {
+            let mut shown = state.renderer.write();
+            match self.texture {
+                Some(id) => {
+                    shown.update_egui_texture_from_wgpu_texture(&state.device, target.view(), FilterMode::Nearest, id);
+                }
+                None => {
+                    let id = shown.register_native_texture(&state.device, target.view(), FilterMode::Nearest);
+                    self.texture = Some(id);
+                }
+            }
+        }
+        self.handle = None;
+        Ok(true)
+    }
+
+    /// Draws a frame if need be; says whether it did.
+    pub(super) fn draw_on_cpu(&mut self, context: &egui::Context, look: &Look, size: (u32, u32)) -> bool {
+        let Some(set) = self.set.clone() else { return false };
+        if !self.is_stale(look, size, Engine::Cpu) {
+            return false;
+        }
+        match self.cpu.draw(&set, look, size) {
+            Ok(times) => self.times = times,
+            Err(why) => {
+                (self.why_not, self.set) = (Some(why), None);
+                return false;
+            }
+        }
+        let Some(picture) = self.cpu.picture() else { return false };
+        let bytes: Vec<u8> = picture.texels().iter().flat_map(|p| [p.r, p.g, p.b, p.a]).collect();
+        let image = egui::ColorImage::from_rgba_unmultiplied([size.0 as usize, size.1 as usize], &bytes);
+        match &mut self.handle {
+            Some(handle) => handle.set(image, TextureOptions::NEAREST),
+            None => self.handle = Some(context.load_texture("picture", image, TextureOptions::NEAREST)),
+        }
+        true
+    }
+
+    /// What to show.
+    pub(super) fn texture(&self) -> Option<TextureId> {
+        self.set.as_ref()?;
+        self.handle.as_ref().map(TextureHandle::id).or(self.texture)
+    }
+
+    /// The pixels of what is shown.
+    pub(super) async fn picture(&self, engine: Engine) -> Option<Picture> {
+        self.set.as_ref()?;
+        match engine {
+            Engine::Cpu => self.cpu.picture().cloned(),
+            Engine::Gpu => self.gpu.picture().await.ok(),
+        }
+    }
+}

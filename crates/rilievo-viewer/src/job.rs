@@ -1,0 +1,72 @@
+//! Long work beside the window.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rilievo::Progress;
+
+use crate::subject::{Recipe, Subject};
+
+/// How far a job is, for a bar.
+#[derive(Debug, Default)]
+pub struct Meter {
+    stage: Mutex<String>,
+    done: AtomicU64,
+    total: AtomicU64,
+}
+
+impl Progress for Meter {
+    fn begin(&self, stage: &str, total: u64) {
+        stage.clone_into(&mut self.stage.lock().unwrap_or_else(PoisonError::into_inner));
+        self.done.store(0, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    fn advance(&self, steps: u64) {
+        self.done.fetch_add(steps, Ordering::Relaxed);
+    }
+}
+
+impl Meter {
+    /// What is being done, and which share of it is.
+    pub fn read(&self) -> (String, f32) {
+        let stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let total = self.total.load(Ordering::Relaxed).max(1);
+        (stage, self.done.load(Ordering::Relaxed) as f32 / total as f32)
+    }
+}
+
+/// A subject in the making.
+pub struct Job {
+    meter: Arc<Meter>,
+    result: Arc<Mutex<Option<Result<Subject, String>>>>,
+}
+
+impl Job {
+    /// Begins to make a subject; `done` is called when it is there.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn begin(recipe: Recipe, done: impl FnOnce() + Send + 'static) -> Self {
+        let job = Self { meter: Arc::default(), result: Arc::default() };
+        let (meter, result) = (Arc::clone(&job.meter), Arc::clone(&job.result));
+        let work = move || {
+            let made = crate::subject::make(&recipe, meter.as_ref());
+            *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
+            done();
+        };
+        if std::thread::Builder::new().name("making a subject".into()).spawn(work).is_err() {
+            let why = "the system gives no thread to work on".to_owned();
+            *job.result.lock().unwrap_or_else(PoisonError::into_inner) = Some(Err(why));
+        }
+        job
+    }
+
+    /// How far it is.
+    pub fn meter(&self) -> &Meter {
+        &self.meter
+    }
+
+    /// What came of it, once.
+    pub fn take(&self) -> Option<Result<Subject, String>> {
+        self.result.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}

@@ -1,0 +1,306 @@
+//! From files and samples to a subject: decoding, bending, quantising. Runs beside the window.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::Vec2;
+use rilievo::height::{Filter, HeightMap, to_normals};
+use rilievo::light::Material;
+use rilievo::normal::{NormalLevels, normal_levels};
+use rilievo::quantize::{Effort, Options, quantize};
+use rilievo::surface::{Deflect, Deflected, Mesh, deflect_heights, deflect_normals, shapes};
+use rilievo::{
+    Convention, Edges, Grid, MaterialMap, MipChain, NormalMap, Object as ObjectSpace, Progress, QuantizedMap, Tangent,
+};
+use rilievo_io::{self as io, AnyIndexed, ImportAs, Limits, Source};
+
+use super::{Sample, Subject};
+
+/// Width of the samples' maps.
+const SAMPLE_WIDTH: u32 = 1024;
+/// Width and height of a map that is made of a mesh's own normals.
+const OWN_SIZE: (u32, u32) = (1024, 1024);
+/// The smallest map that is bent onto a mesh, unless the file's is larger.
+const LEAST_BENT: u32 = 512;
+
+/// A file that was opened or dropped.
+#[derive(Debug, Clone)]
+pub struct File {
+    /// Its name, for messages.
+    pub name: String,
+    /// What is in it.
+    pub bytes: Arc<[u8]>,
+}
+
+/// What a map is laid on.
+#[derive(Debug, Clone, Default)]
+pub enum Surface {
+    /// A flat sheet of the map's proportions.
+    #[default]
+    Plane,
+    /// A sphere.
+    Sphere,
+    /// A torus.
+    Torus,
+    /// A mesh of the user's own.
+    Mesh(File),
+}
+
+impl Surface {
+    /// Its name, for people.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Plane => "Plane",
+            Self::Sphere => "Sphere",
+            Self::Torus => "Torus",
+            Self::Mesh(file) => &file.name,
+        }
+    }
+
+    fn mesh(&self, (width, height): (u32, u32), notes: &mut Vec<String>) -> Result<Mesh, String> {
+        let mesh = match self {
+            Self::Plane => shapes::plane(width as f32 / height as f32),
+            Self::Sphere => shapes::sphere(128, 64),
+            Self::Torus => shapes::torus(96, 48, 1.0, 0.45),
+            Self::Mesh(file) => {
+                let read = io::decode_mesh(&file.source(), &Limits::default()).map_err(told)?;
+                notes.extend(read.warnings);
+                Ok(read.mesh)
+            }
+        };
+        let mesh = mesh.map_err(told)?;
+        if mesh.uvs().is_empty() { Ok(mesh) } else { mesh.with_tangents().map_err(told) }
+    }
+}
+
+impl File {
+    fn source(&self) -> Source {
+        Source::from_bytes(self.name.clone(), self.bytes.to_vec())
+    }
+
+    /// Whether it is a mesh and not a map, by its name and its first bytes.
+    pub fn is_mesh(&self) -> bool {
+        let name = self.name.to_lowercase();
+        let named = [".obj", ".ply", ".glb", ".gltf", ".obj.gz", ".ply.gz"].iter().any(|end| name.ends_with(end));
+        named || self.bytes.starts_with(b"glTF") || self.bytes.starts_with(b"ply\n") || self.bytes.starts_with(b"ply\r")
+    }
+}
+
+/// What to make.
+#[derive(Debug, Clone)]
+pub struct Recipe {
+    /// A sample, if there is no map.
+    pub sample: Option<Sample>,
+    /// A map: heights, normals, or an indexed one.
+    pub map: Option<File>,
+    /// What it is laid on; samples have their own.
+    pub surface: Surface,
+    /// Entries of the table.
+    pub entries: u32,
+    /// How hard the quantiser tries.
+    pub effort: Effort,
+    /// Height of full white as a share of the map's width.
+    pub depth: f32,
+    /// Which way green points in a normal map.
+    pub convention: Convention,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Self {
+            sample: Some(Sample::default()),
+            map: None,
+            surface: Surface::default(),
+            entries: 2048,
+            effort: Effort::Fast,
+            depth: 0.05,
+            convention: Convention::Gl,
+        }
+    }
+}
+
+fn told(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}
+
+/// Makes a subject.
+///
+/// # Errors
+/// A complete sentence for the user.
+pub fn make(recipe: &Recipe, progress: &dyn Progress) -> Result<Subject, String> {
+    match (&recipe.map, recipe.sample) {
+        (Some(file), _) => from_map(recipe, file, progress),
+        (None, Some(sample)) => from_sample(recipe, sample, progress),
+        (None, None) => from_mesh(recipe, progress),
+    }
+}
+
+fn from_sample(recipe: &Recipe, sample: Sample, progress: &dyn Progress) -> Result<Subject, String> {
+    progress.begin("drawing the maps", 1);
+    let parts = sample.parts(SAMPLE_WIDTH).map_err(told)?;
+    progress.advance(1);
+    let mesh = parts.mesh.with_tangents().map_err(told)?;
+    let size = parts.height.heights().size();
+    let flat = to_normals(&parts.height, Filter::Plane4, Edges::Wrap);
+    let bent = bend_heights(&mesh, &parts.height, None, size, progress)?;
+    let tangent = normal_levels(flat, parts.kinds.clone(), None).map_err(told)?;
+    let mut subject = finish(recipe, mesh, bent, parts.kinds, progress)?;
+    subject.name = sample.name().to_owned();
+    subject.tangent = Some((tangent, Vec2::ONE));
+    subject.base_color = Some((MipChain::from_picture(&parts.color), Vec2::ONE));
+    subject.materials = parts.materials;
+    Ok(subject)
+}
+
+/// A mesh without a map: its own normals are what is quantised.
+fn from_mesh(recipe: &Recipe, progress: &dyn Progress) -> Result<Subject, String> {
+    let mut notes = Vec::new();
+    let mesh = recipe.surface.mesh((1, 1), &mut notes)?;
+    let name = recipe.surface.name().to_owned();
+    if mesh.uvs().is_empty() {
+        notes.push("the mesh has no texture coordinates: it is drawn with its own normals".to_owned());
+        return Ok(Subject { name, notes, ..plain(mesh) });
+    }
+    let flat = HeightMap::new(Grid::filled(1, 1, 0.0).map_err(told)?, 1.0).map_err(told)?;
+    let bent = bend_heights(&mesh, &flat, None, OWN_SIZE, progress)?;
+    let mut subject = finish(recipe, mesh, bent, None, progress)?;
+    subject.name = name;
+    subject.notes.extend(notes);
+    Ok(subject)
+}
+
+fn from_map(recipe: &Recipe, file: &File, progress: &dyn Progress) -> Result<Subject, String> {
+    let (source, limits) = (file.source(), Limits::default());
+    progress.begin("reading", 1);
+    if io::is_indexed(&source) {
+        return from_indexed(recipe, file, &source);
+    }
+    let mut notes = Vec::new();
+    if io::looks_like_normals(&source, &limits) {
+        let image = io::decode_normals::<Tangent>(&source, recipe.convention, &limits).map_err(told)?;
+        progress.advance(1);
+        notes.extend(image.warnings);
+        let mesh = with_uvs(recipe.surface.mesh(image.normals.size(), &mut notes)?)?;
+        let options = Deflect::new(bent_size(image.normals.size()));
+        let bent = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress).map_err(told)?;
+        let tangent = normal_levels(image.normals, None, image.covered.as_ref()).map_err(told)?;
+        return close(recipe, file, (mesh, bent, tangent), notes, progress);
+    }
+    let image = io::decode_height(&source, &limits).map_err(|error| {
+        format!(
+            "{error} (formats: PNG, JPEG, TIFF, EXR, NPY for heights and normals; indexed PNG, KTX2; OBJ, PLY, GLB)"
+        )
+    })?;
+    progress.advance(1);
+    notes.extend(image.warnings);
+    let height = HeightMap::new(image.heights, recipe.depth).map_err(told)?;
+    let size = height.heights().size();
+    let mesh = with_uvs(recipe.surface.mesh(size, &mut notes)?)?;
+    let flat = to_normals(&height, Filter::Plane4, Edges::Wrap);
+    let bent = bend_heights(&mesh, &height, image.covered.as_ref(), bent_size(size), progress)?;
+    let tangent = normal_levels(flat, None, image.covered.as_ref()).map_err(told)?;
+    close(recipe, file, (mesh, bent, tangent), notes, progress)
+}
+
+fn close(
+    recipe: &Recipe,
+    file: &File,
+    (mesh, bent, tangent): (Mesh, Deflected, NormalLevels<Tangent>),
+    notes: Vec<String>,
+    progress: &dyn Progress,
+) -> Result<Subject, String> {
+    let mut subject = finish(recipe, mesh, bent, None, progress)?;
+    subject.name = file.name.clone();
+    subject.tangent = Some((tangent, Vec2::ONE));
+    subject.notes.extend(notes);
+    Ok(subject)
+}
+
+fn from_indexed(recipe: &Recipe, file: &File, source: &Source) -> Result<Subject, String> {
+    let import = ImportAs { space: None, convention: Some(recipe.convention) };
+    let read = io::decode_indexed(source, &import, &Limits::default()).map_err(told)?;
+    let mut notes = read.warnings;
+    let mesh = with_uvs(recipe.surface.mesh(read.map.size(), &mut notes)?)?;
+    let indexed: QuantizedMap<ObjectSpace> = match read.map {
+        AnyIndexed::Object(map) => map,
+        AnyIndexed::Tangent(map) => {
+            let frame = mesh.constant_frame().ok_or(
+                "a tangent-space index map can only lie on a plane: choose it, or open the map it was made of",
+            )?;
+            map.map_normals(|n| frame.to_object(n))
+        }
+    };
+    Ok(Subject { name: file.name.clone(), indexed: Some(indexed), notes, ..plain(mesh) })
+}
+
+fn with_uvs(mesh: Mesh) -> Result<Mesh, String> {
+    if mesh.uvs().is_empty() {
+        return Err("the mesh has no texture coordinates, so no map can lie on it; unwrap it first".to_owned());
+    }
+    Ok(mesh)
+}
+
+/// The size of a map bent onto a mesh.
+fn bent_size((width, height): (u32, u32)) -> (u32, u32) {
+    (width.max(LEAST_BENT), height.max(LEAST_BENT))
+}
+
+fn bend_heights(
+    mesh: &Mesh,
+    map: &HeightMap,
+    covered: Option<&Grid<bool>>,
+    size: (u32, u32),
+    progress: &dyn Progress,
+) -> Result<Deflected, String> {
+    deflect_heights(mesh, map, covered, Filter::Plane4, Edges::Wrap, &Deflect::new(size), progress).map_err(told)
+}
+
+/// Quantises what was bent.
+fn finish(
+    recipe: &Recipe,
+    mesh: Mesh,
+    bent: Deflected,
+    kinds: Option<MaterialMap>,
+    progress: &dyn Progress,
+) -> Result<Subject, String> {
+    let mut notes = Vec::new();
+    if bent.overlaps > 0 {
+        notes.push(format!(
+            "{} texels belong to several triangles; an object-space map serves one of them",
+            bent.overlaps
+        ));
+    }
+    let options = Options {
+        entries: recipe.entries,
+        effort: recipe.effort,
+        materials: kinds.as_ref(),
+        covered: Some(&bent.covered),
+        mip_levels: true,
+        ..Options::default()
+    };
+    let normals: &NormalMap<ObjectSpace> = &bent.normals;
+    let quantized = quantize(normals, &options, progress).map_err(told)?;
+    let levels = normal_levels(bent.normals, kinds, Some(&bent.covered)).map_err(told)?;
+    let mut subject = plain(mesh);
+    subject.object = Some(levels);
+    subject.indexed = Some(quantized.map);
+    subject.error = Some(quantized.error);
+    subject.notes = notes;
+    Ok(subject)
+}
+
+/// A mesh and nothing else.
+fn plain(mesh: Mesh) -> Subject {
+    Subject {
+        name: String::new(),
+        mesh,
+        object: None,
+        tangent: None,
+        indexed: None,
+        base_color: None,
+        edges: Edges::Wrap,
+        materials: vec![Material::default()],
+        error: None,
+        notes: Vec::new(),
+        bumps: [OnceLock::new(), OnceLock::new()],
+    }
+}
