@@ -14,8 +14,8 @@ use wgpu::{
 pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// A picture in the memory of the GPU, 8-bit sRGB, with its depth.
-#[derive(Debug)]
+/// A picture in the memory of the GPU, 8-bit sRGB, with its depth. Copies are the same picture.
+#[derive(Debug, Clone)]
 pub struct Target {
     gpu: Gpu,
     size: (u32, u32),

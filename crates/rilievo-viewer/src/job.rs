@@ -28,6 +28,13 @@ impl Progress for Meter {
 }
 
 impl Meter {
+    /// What another one has read.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn set(&self, stage: &str, share: f32) {
+        self.begin(stage, 1000);
+        self.advance((share.clamp(0.0, 1.0) * 1000.0) as u64);
+    }
+
     /// What is being done, and which share of it is.
     pub fn read(&self) -> (String, f32) {
         let stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
@@ -36,10 +43,13 @@ impl Meter {
     }
 }
 
+/// Where a subject is put when it is made.
+pub(crate) type Made = Arc<Mutex<Option<Result<Subject, String>>>>;
+
 /// A subject in the making.
 pub struct Job {
     meter: Arc<Meter>,
-    result: Arc<Mutex<Option<Result<Subject, String>>>>,
+    result: Made,
 }
 
 impl Job {
@@ -57,6 +67,14 @@ impl Job {
             let why = "the system gives no thread to work on".to_owned();
             *job.result.lock().unwrap_or_else(PoisonError::into_inner) = Some(Err(why));
         }
+        job
+    }
+
+    /// Begins to make a subject; `done` is called when it is there.
+    #[cfg(target_arch = "wasm32")]
+    pub fn begin(recipe: Recipe, done: impl FnOnce() + 'static) -> Self {
+        let job = Self { meter: Arc::default(), result: Arc::default() };
+        crate::web::begin(&recipe, Arc::clone(&job.meter), Arc::clone(&job.result), Box::new(done));
         job
     }
 

@@ -12,7 +12,11 @@ pub mod look;
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
 pub mod subject;
+#[cfg(any(target_arch = "wasm32", test))]
+mod web;
 
 pub use app::{Start, Viewer};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::run;
+#[cfg(target_arch = "wasm32")]
+pub use web::{Plain, start, work};

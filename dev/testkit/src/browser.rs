@@ -34,6 +34,25 @@ impl Browser {
     /// # Panics
     /// If it does not start, or if there is none and `CI` is `true`.
     pub fn start(flags: &[&str]) -> Option<Self> {
+        Self::launch(&[&["--disable-gpu"], flags].concat())
+    }
+
+    /// With a software GPU for WebGPU and for WebGL2: without the Vulkan flags WebGPU says that all is well and shows black.
+    ///
+    /// # Panics
+    /// As [`Browser::start`].
+    pub fn start_with_gpu() -> Option<Self> {
+        Self::launch(&[
+            "--enable-unsafe-webgpu",
+            "--use-webgpu-adapter=swiftshader",
+            "--enable-features=Vulkan",
+            "--use-vulkan=swiftshader",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
+        ])
+    }
+
+    fn launch(flags: &[&str]) -> Option<Self> {
         if !cfg!(unix) || !has_program("chromium") {
             return None;
         }
@@ -49,7 +68,7 @@ impl Browser {
             .arg("to=$1; from=$2; shift 2; exec chromium \"$@\" 3<\"$to\" 4>\"$from\"")
             .arg("sh")
             .args([&to, &from])
-            .args(["--headless", "--no-sandbox", "--no-first-run", "--disable-gpu", "--disable-background-networking"])
+            .args(["--headless", "--no-sandbox", "--no-first-run", "--disable-quic", "--disable-background-networking"])
             .args(["--disable-component-update", "--disable-sync", "--remote-debugging-pipe", "--window-size=900,1000"])
             .arg(format!("--user-data-dir={}", folder.join("profile").display()))
             .args(flags)
@@ -75,9 +94,41 @@ impl Browser {
 
     /// Opens a file and waits until it is loaded.
     pub fn open(&mut self, file: &Path) {
-        let url = format!("file://{}", file.canonicalize().expect("the page is there").display());
+        self.go_to(&format!("file://{}", file.canonicalize().expect("the page is there").display()));
+    }
+
+    /// Opens an address and waits until its document is loaded.
+    pub fn go_to(&mut self, url: &str) {
         self.call("Page.navigate", &json!({ "url": url }));
-        self.wait_until("document.readyState === 'complete' && location.protocol === 'file:'");
+        self.wait_until("document.readyState === 'complete' && location.protocol !== 'about:'");
+    }
+
+    /// What is to be seen, as a PNG.
+    ///
+    /// # Panics
+    /// If the browser sends none.
+    pub fn screenshot(&mut self) -> Vec<u8> {
+        let shot = self.call("Page.captureScreenshot", &json!({ "format": "png" }));
+        from_base64(shot["data"].as_str().expect("a screenshot"))
+    }
+
+    /// Presses a button, `left` or `right`, at a place of the page, draws the mouse along, and lets go.
+    pub fn drag(&mut self, button: &str, from: [f64; 2], to: [f64; 2]) {
+        const STEPS: u32 = 8;
+        let held = if button == "right" { 2 } else { 1 };
+        let mut event = |what: &str, [x, y]: [f64; 2], buttons: u32| {
+            let event = json!({ "type": what, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
+            self.call("Input.dispatchMouseEvent", &event);
+            // As from a hand: a frame or more apart.
+            std::thread::sleep(Duration::from_millis(60));
+        };
+        event("mouseMoved", from, 0);
+        event("mousePressed", from, held);
+        for step in 1..=STEPS {
+            let share = f64::from(step) / f64::from(STEPS);
+            event("mouseMoved", [0, 1].map(|i: usize| from[i] + (to[i] - from[i]) * share), held);
+        }
+        event("mouseReleased", to, 0);
     }
 
     /// The value of an expression on the page; of a promise, what it comes to.
@@ -155,11 +206,44 @@ impl Browser {
     }
 }
 
+/// The bytes of a text of the browser's (RFC 4648).
+fn from_base64(text: &str) -> Vec<u8> {
+    let value = |c: u8| match c {
+        b'A'..=b'Z' => c - b'A',
+        b'a'..=b'z' => c - b'a' + 26,
+        b'0'..=b'9' => c - b'0' + 52,
+        b'+' => 62,
+        _ => 63,
+    };
+    let (mut bytes, mut bits, mut count) = (Vec::with_capacity(text.len() / 4 * 3), 0u32, 0);
+    for c in text.bytes().filter(|&c| c != b'=') {
+        bits = bits << 6 | u32::from(value(c));
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            bytes.push((bits >> count) as u8);
+        }
+    }
+    bytes
+}
+
 impl Drop for Browser {
     fn drop(&mut self) {
         // Whatever becomes of it, the test is over.
         let _ = self.child.kill();
         let _ = self.child.wait();
         let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_all_lengths() {
+        let decoded = |text| String::from_utf8(from_base64(text)).unwrap();
+        assert_eq!(["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg=="].map(decoded), ["", "f", "fo", "foo", "foob"]);
+        assert_eq!(from_base64("+/8A"), [0xfb, 0xff, 0]);
     }
 }

@@ -16,6 +16,7 @@ mod run;
 mod skips;
 mod smoke;
 mod test;
+mod web;
 mod workspace;
 
 use clap::{Parser, Subcommand};
@@ -44,6 +45,8 @@ enum Task {
     Deny,
     /// Check the hardware of the polar units against their models: tables, lint, replay, cost.
     Rtl(rtl::Options),
+    /// Build the viewer as a page, measure it, and serve it.
+    Web(web::Options),
     /// Measure against peers.
     Bench(bench::Options),
 }
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
         Task::Hygiene => hygiene::run(),
         Task::Deny => deny::run(),
         Task::Rtl(options) => rtl::run(&options),
+        Task::Web(options) => web::run(&options),
         Task::Bench(options) => bench::run(&options),
     };
     // Without a stack trace: what failed is another program or a file, not this one.

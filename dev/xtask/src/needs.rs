@@ -61,6 +61,14 @@ const TOOLS: &[Tool] = &[
         hint: "rustup component add clippy",
     },
     Tool {
+        name: "rustup",
+        programs: &["rustup"],
+        purpose: "gets the standard library for WebAssembly, for the page",
+        without: Without::Fine,
+        debian: None,
+        hint: "install Rust by rustup",
+    },
+    Tool {
         name: "git",
         programs: &["git"],
         purpose: "lists the files for the hygiene step",

@@ -83,6 +83,11 @@ pub struct Viewer {
     lost: Arc<AtomicBool>,
     inbox: Inbox,
     difference: Option<Difference>,
+    /// Differences that are being worked out, with the number of the change they are of.
+    #[cfg(target_arch = "wasm32")]
+    compared: Arc<std::sync::Mutex<Option<(Instant, Difference)>>>,
+    #[cfg(target_arch = "wasm32")]
+    asked: Option<Instant>,
     /// When something last changed in the picture.
     changed: Instant,
 }
@@ -123,6 +128,10 @@ impl Viewer {
             lost: start.lost,
             inbox: Inbox::default(),
             difference: None,
+            #[cfg(target_arch = "wasm32")]
+            compared: Arc::default(),
+            #[cfg(target_arch = "wasm32")]
+            asked: None,
             changed: Instant::now(),
         };
         for file in start.files {
@@ -215,7 +224,10 @@ impl Viewer {
                     self.engine = Engine::Cpu;
                     // The window's own pictures are drawn by the same device.
                     self.lost.store(true, Ordering::Relaxed);
+                    #[cfg(not(target_arch = "wasm32"))]
                     context.send_viewport_cmd(egui::ViewportCommand::Close);
+                    #[cfg(target_arch = "wasm32")]
+                    crate::web::tell_lost();
                 }
             }
         }
@@ -246,6 +258,42 @@ impl Viewer {
             self.difference = Some(Difference { psnr_db: stats.psnr_db, max_abs: stats.max_abs });
             context.request_repaint();
         }
+    }
+
+    /// Compares the two pictures once they stay as they are; a browser reads them by and by.
+    #[cfg(target_arch = "wasm32")]
+    fn compare(&mut self, context: &egui::Context) {
+        if let Some((of, difference)) = self.compared.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take()
+            && of == self.changed
+        {
+            self.difference = Some(difference);
+        }
+        if self.look.other.is_none() || self.difference.is_some() || self.asked == Some(self.changed) {
+            return;
+        }
+        let waited = self.changed.elapsed().as_secs_f32();
+        if waited < SETTLED {
+            context.request_repaint_after(std::time::Duration::from_secs_f32(SETTLED - waited));
+            return;
+        }
+        self.asked = Some(self.changed);
+        let [left, right] = [0, 1].map(|i: usize| self.panes[i].parts(self.engine));
+        let (compared, context, of) = (Arc::clone(&self.compared), context.clone(), self.changed);
+        wasm_bindgen_futures::spawn_local(async move {
+            let read = async |(target, picture): (Option<rilievo_gpu::Target>, Option<rilievo::color::Picture>)| {
+                match target {
+                    Some(target) => target.read().await.ok(),
+                    None => picture,
+                }
+            };
+            if let (Some(left), Some(right)) = (read(left).await, read(right).await)
+                && let Ok(stats) = picture_stats(&right, &left)
+            {
+                let difference = Difference { psnr_db: stats.psnr_db, max_abs: stats.max_abs };
+                *compared.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some((of, difference));
+                context.request_repaint();
+            }
+        });
     }
 
     fn keys(&mut self, context: &egui::Context) {

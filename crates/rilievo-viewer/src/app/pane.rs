@@ -128,7 +128,17 @@ impl Pane {
         self.handle.as_ref().map(TextureHandle::id).or(self.texture)
     }
 
+    /// What is shown, to be read later.
+    #[cfg(target_arch = "wasm32")]
+    pub(super) fn parts(&self, engine: Engine) -> (Option<rilievo_gpu::Target>, Option<Picture>) {
+        match engine {
+            Engine::Cpu => (None, self.cpu.picture().cloned()),
+            Engine::Gpu => (self.gpu.target().cloned(), None),
+        }
+    }
+
     /// The pixels of what is shown.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(super) async fn picture(&self, engine: Engine) -> Option<Picture> {
         self.set.as_ref()?;
         match engine {

@@ -1,10 +1,9 @@
 //! From files and samples to a subject: decoding, bending, quantising. Runs beside the window.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::Vec2;
 use rilievo::height::{Filter, HeightMap, to_normals};
-use rilievo::light::Material;
 use rilievo::normal::{NormalLevels, normal_levels};
 use rilievo::quantize::{Effort, Options, quantize};
 use rilievo::surface::{Deflect, Deflected, Mesh, deflect_heights, deflect_normals, shapes};
@@ -158,7 +157,7 @@ fn from_mesh(recipe: &Recipe, progress: &dyn Progress) -> Result<Subject, String
     let name = recipe.surface.name().to_owned();
     if mesh.uvs().is_empty() {
         notes.push("the mesh has no texture coordinates: it is drawn with its own normals".to_owned());
-        return Ok(Subject { name, notes, ..plain(mesh) });
+        return Ok(Subject { name, notes, ..Subject::plain(mesh) });
     }
     let flat = HeightMap::new(Grid::filled(1, 1, 0.0).map_err(told)?, 1.0).map_err(told)?;
     let bent = bend_heights(&mesh, &flat, None, OWN_SIZE, progress)?;
@@ -229,7 +228,7 @@ fn from_indexed(recipe: &Recipe, file: &File, source: &Source) -> Result<Subject
             map.map_normals(|n| frame.to_object(n))
         }
     };
-    Ok(Subject { name: file.name.clone(), indexed: Some(indexed), notes, ..plain(mesh) })
+    Ok(Subject { name: file.name.clone(), indexed: Some(indexed), notes, ..Subject::plain(mesh) })
 }
 
 fn with_uvs(mesh: Mesh) -> Result<Mesh, String> {
@@ -280,27 +279,10 @@ fn finish(
     let normals: &NormalMap<ObjectSpace> = &bent.normals;
     let quantized = quantize(normals, &options, progress).map_err(told)?;
     let levels = normal_levels(bent.normals, kinds, Some(&bent.covered)).map_err(told)?;
-    let mut subject = plain(mesh);
+    let mut subject = Subject::plain(mesh);
     subject.object = Some(levels);
     subject.indexed = Some(quantized.map);
     subject.error = Some(quantized.error);
     subject.notes = notes;
     Ok(subject)
-}
-
-/// A mesh and nothing else.
-fn plain(mesh: Mesh) -> Subject {
-    Subject {
-        name: String::new(),
-        mesh,
-        object: None,
-        tangent: None,
-        indexed: None,
-        base_color: None,
-        edges: Edges::Wrap,
-        materials: vec![Material::default()],
-        error: None,
-        notes: Vec::new(),
-        bumps: [OnceLock::new(), OnceLock::new()],
-    }
 }

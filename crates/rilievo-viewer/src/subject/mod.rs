@@ -51,6 +51,23 @@ pub struct Subject {
 pub type Missing = &'static str;
 
 impl Subject {
+    /// A mesh and nothing else.
+    pub(crate) fn plain(mesh: Mesh) -> Self {
+        Self {
+            name: String::new(),
+            mesh,
+            object: None,
+            tangent: None,
+            indexed: None,
+            base_color: None,
+            edges: Edges::Wrap,
+            materials: vec![Material::default()],
+            error: None,
+            notes: Vec::new(),
+            bumps: [OnceLock::new(), OnceLock::new()],
+        }
+    }
+
     /// Whether a way has what it takes.
     ///
     /// # Errors

@@ -1,0 +1,40 @@
+//! The viewer on a canvas.
+
+use std::sync::Arc;
+
+use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
+use eframe::{WebOptions, WebRunner};
+use rilievo_gpu::Gpu;
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+
+use crate::app::{Start, Viewer};
+
+/// Starts the viewer on a canvas.
+///
+/// # Errors
+/// If the browser gives no device to draw with: the plain page needs none.
+#[wasm_bindgen]
+pub async fn start(canvas: HtmlCanvasElement, by_cpu: bool, webgl: bool) -> Result<(), JsValue> {
+    let mut options = WebOptions::default();
+    if let WgpuSetup::CreateNew(WgpuSetupCreateNew { device_descriptor, instance_descriptor, .. }) =
+        &mut options.wgpu_options.wgpu_setup
+    {
+        *device_descriptor = Arc::new(Gpu::request);
+        if webgl {
+            instance_descriptor.backends = eframe::wgpu::Backends::GL;
+        }
+    }
+    let start = Start { by_cpu, ..Start::default() };
+    let make: eframe::AppCreator<'static> = Box::new(move |context| Ok(Box::new(Viewer::new(context, start))));
+    WebRunner::new().start(canvas, options, make).await
+}
+
+/// Tells the page that the graphics device is gone: its script puts the plain picture in the canvas's place.
+pub(crate) fn tell_lost() {
+    let Some(window) = web_sys::window() else { return };
+    if let Ok(event) = web_sys::Event::new("rilievo-lost") {
+        // What nobody hears is shown by the next frame's error.
+        let _ = window.dispatch_event(&event);
+    }
+}

@@ -1,0 +1,144 @@
+//! A viewer of one picture, drawn by the CPU: for browsers that have no GPU to give, and for pages of one's own.
+
+use std::sync::Arc;
+
+use rilievo::raster::TextureFilter;
+use wasm_bindgen::prelude::*;
+
+use super::begin;
+use crate::canvas::{CpuSide, Set};
+use crate::job::{Made, Meter};
+use crate::look::{Finish, Lamp, Look, Orbit, Way};
+use crate::subject::{File, Recipe, Subject, Surface};
+
+/// One picture and what it depends on.
+#[wasm_bindgen]
+pub struct Plain {
+    recipe: Recipe,
+    subject: Option<Arc<Subject>>,
+    look: Look,
+    side: CpuSide,
+    set: Option<Arc<Set>>,
+    milliseconds: f64,
+    meter: Arc<Meter>,
+    made: Made,
+}
+
+#[wasm_bindgen]
+impl Plain {
+    /// Begins with the vase; `done` is called when something was made.
+    #[wasm_bindgen(constructor)]
+    #[expect(clippy::new_without_default, reason = "a page calls it")]
+    pub fn new() -> Self {
+        let look = Look {
+            way: Way::Table,
+            other: None,
+            filter: TextureFilter::Bilinear,
+            finishes: Vec::new(),
+            orbit: Orbit::default(),
+            lamp: Lamp::default(),
+            colored: true,
+        };
+        let recipe = Recipe::default();
+        let (meter, made) = Default::default();
+        Self { recipe, subject: None, look, side: CpuSide::default(), set: None, milliseconds: 0.0, meter, made }
+    }
+
+    /// Begins to make what is to be seen.
+    pub fn make(&self, done: web_sys::js_sys::Function) {
+        let done = Box::new(move || {
+            // A page that does not listen is drawn at its next frame.
+            let _ = done.call0(&JsValue::NULL);
+        });
+        begin(&self.recipe, Arc::clone(&self.meter), Arc::clone(&self.made), done);
+    }
+
+    /// Takes in a file; `make` comes next.
+    pub fn open(&mut self, name: String, bytes: Vec<u8>) {
+        let file = File { name, bytes: bytes.into() };
+        if file.is_mesh() {
+            self.recipe.surface = Surface::Mesh(file);
+        } else {
+            self.recipe.map = Some(file);
+        }
+        self.recipe.sample = None;
+    }
+
+    /// The stage of the work and its share, for a bar.
+    pub fn progress(&self) -> String {
+        let (stage, share) = self.meter.read();
+        format!("{stage} {:.0} %", share * 100.0)
+    }
+
+    /// Takes what was made; says what went wrong, if anything did.
+    pub fn take(&mut self) -> Option<String> {
+        let made = self.made.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take()?;
+        match made {
+            Ok(subject) => {
+                let count = subject.material_count().max(subject.materials.len());
+                let default = subject.materials.first().cloned().unwrap_or_default();
+                let finish = |i: usize| Finish::of(subject.materials.get(i).unwrap_or(&default));
+                self.look.finishes = (0..count).map(finish).collect();
+                self.subject = Some(Arc::new(subject));
+                None
+            }
+            Err(why) => Some(why),
+        }
+    }
+
+    /// Moves the eye, in radians.
+    pub fn turn(&mut self, across: f32, up: f32) {
+        self.look.orbit.turn(across, up);
+    }
+
+    /// Moves the light, in radians.
+    pub fn light(&mut self, across: f32, up: f32) {
+        self.look.lamp.turn(across, up);
+    }
+
+    /// Comes nearer by a factor.
+    pub fn zoom(&mut self, factor: f32) {
+        self.look.orbit.zoom(factor);
+    }
+
+    /// Chooses a way by its name.
+    pub fn way(&mut self, name: &str) {
+        if let Some(way) = Way::ALL.into_iter().find(|way| way.name() == name) {
+            self.look.way = way;
+        }
+    }
+
+    /// The names of the ways that the subject can be drawn in.
+    pub fn ways(&self) -> Vec<String> {
+        let can = |way: &Way| {
+            CpuSide::differs(*way)
+                && self.subject.as_ref().is_some_and(|s| s.can(*way).is_ok())
+                && self.look.suits(*way)
+        };
+        Way::ALL.into_iter().filter(can).map(|way| way.name().to_owned()).collect()
+    }
+
+    /// Draws a frame: red, green, blue and alpha of all pixels.
+    ///
+    /// # Errors
+    /// A sentence for the user.
+    pub fn draw(&mut self, width: u32, height: u32) -> Result<Vec<u8>, String> {
+        let subject = self.subject.clone().ok_or("nothing was made yet")?;
+        let size = (width.max(1), height.max(1));
+        let known = self.set.take().filter(|set| set.fits(&subject, &self.look, self.look.way));
+        let set = match known {
+            Some(set) => set,
+            None => Arc::new(Set::new(&subject, &self.look, self.look.way, size)?),
+        };
+        self.set = Some(Arc::clone(&set));
+        let times = self.side.draw(&set, &self.look, size)?;
+        self.milliseconds = times.draw.map_or(0.0, |t| t.as_secs_f64() * 1e3);
+        let picture = self.side.picture().ok_or("nothing was drawn")?;
+        Ok(picture.texels().iter().flat_map(|p| [p.r, p.g, p.b, p.a]).collect())
+    }
+
+    /// What the last frame took.
+    pub fn milliseconds(&self) -> f64 {
+        self.milliseconds
+    }
+}
