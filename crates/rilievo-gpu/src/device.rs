@@ -14,8 +14,34 @@ pub struct Gpu {
     pub(crate) device: Device,
     pub(crate) queue: Queue,
     about: AdapterInfo,
-    /// What the device last complained of.
-    complaint: Arc<Mutex<Option<String>>>,
+    trouble: Arc<Trouble>,
+}
+
+/// What is wrong with a device.
+#[derive(Default)]
+struct Trouble {
+    /// What it first complained of.
+    complaint: Mutex<Option<String>>,
+    /// Who wants to know at once.
+    listener: Mutex<Option<Listener>>,
+}
+
+type Listener = Arc<dyn Fn() + Send + Sync>;
+
+impl Trouble {
+    fn note(&self, text: String) {
+        self.complaint.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
+        let listener = self.listener.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        if let Some(listener) = listener {
+            listener();
+        }
+    }
+}
+
+impl std::fmt::Debug for Trouble {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Trouble").field("complaint", &self.complaint).finish_non_exhaustive()
+    }
 }
 
 impl Gpu {
@@ -60,17 +86,16 @@ impl Gpu {
     ///
     /// Errors of the device are kept from now on, and given by [`Gpu::check`]: wgpu itself would end the program.
     pub fn from_device(device: Device, queue: Queue, about: AdapterInfo) -> Self {
-        let complaint = Arc::new(Mutex::new(None));
-        let keep = |complaint: &Arc<Mutex<Option<String>>>| {
-            let complaint = Arc::clone(complaint);
-            move |text: String| {
-                complaint.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
-            }
-        };
-        let (lost, wrong) = (keep(&complaint), keep(&complaint));
-        device.set_device_lost_callback(move |reason, message| lost(format!("{reason:?}: {message}")));
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| wrong(error.to_string())));
-        Self { device, queue, about, complaint }
+        let trouble = Arc::new(Trouble::default());
+        let (lost, wrong) = (Arc::clone(&trouble), Arc::clone(&trouble));
+        device.set_device_lost_callback(move |reason, message| lost.note(format!("{reason:?}: {message}")));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| wrong.note(error.to_string())));
+        Self { device, queue, about, trouble }
+    }
+
+    /// Calls `listener`, on whatever thread, when [`Gpu::check`] has something to say: for who draws only when something changes.
+    pub fn on_trouble(&self, listener: impl Fn() + Send + Sync + 'static) {
+        *self.trouble.listener.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::new(listener));
     }
 
     /// Whether the device still works.
@@ -78,7 +103,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::Device`] with what it first complained of.
     pub fn check(&self) -> Result<()> {
-        match self.complaint.lock().unwrap_or_else(PoisonError::into_inner).as_ref() {
+        match self.trouble.complaint.lock().unwrap_or_else(PoisonError::into_inner).as_ref() {
             Some(text) => Err(Error::Device(text.clone())),
             None => Ok(()),
         }

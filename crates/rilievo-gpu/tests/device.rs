@@ -1,6 +1,9 @@
 //! What a device is sent, what it cannot hold, and what becomes of it.
 #![expect(clippy::unwrap_used, reason = "tests fail loudly")]
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rilievo::light::{Light, Lighting, Material};
 use rilievo::polar::{UnitKind, Width};
 use rilievo::raster::vectors::{Midpoints, Order};
@@ -118,11 +121,15 @@ fn a_lost_device_is_an_error_and_no_end() {
     let mut loaded = renderer.load(&scene, method, TextureFilter::Nearest).unwrap();
     let target = Target::new(&gpu, (32, 32)).unwrap();
     renderer.update(&mut loaded, &scene, target.size()).unwrap();
+    let told = Arc::new(AtomicBool::new(false));
+    let tells = Arc::clone(&told);
+    gpu.on_trouble(move || tells.store(true, Ordering::Relaxed));
     gpu.device().destroy();
     renderer.draw(&loaded, &target, None);
     let error = pollster::block_on(target.read()).unwrap_err();
     assert!(matches!(error, Error::Device(_)), "{error}");
     assert!(error.to_string().contains("CPU renderer"), "{error}");
+    assert!(told.load(Ordering::Relaxed), "who wants to know is told");
     assert!(matches!(renderer.update(&mut loaded, &scene, (32, 32)), Err(Error::Device(_))));
     assert!(matches!(renderer.load(&scene, method, TextureFilter::Nearest), Err(Error::Device(_))));
 }

@@ -17,7 +17,7 @@ async function hasGpu() {
 
 async function viewer() {
   const canvas = element("viewer");
-  const lost = (why) => plain(`${why}: the CPU draws now.`);
+  const lost = (why) => plain(`${why}: the CPU draws now. Loading the page again gives a new one.`);
   canvas.addEventListener("webglcontextlost", () => lost("The graphics context was lost"));
   addEventListener("rilievo-lost", () => lost("The graphics device was lost"));
   await start(canvas, wishes.has("cpu"), wishes.has("webgl"));
@@ -30,30 +30,46 @@ function plain(why) {
   if (running) return;
   running = true;
   element("viewer").remove();
+  element("state").remove();
   element("plain").hidden = false;
   message(why);
   const picture = element("picture");
+  const ways = element("way");
   const context = picture.getContext("2d");
   const page = new Plain();
-  let working = true;
-  let wanted = true;
+  let working = false;
+  let wanted = false;
 
   const make = () => {
     working = true;
-    page.make(() => {
-      working = false;
-      const wrong = page.take();
-      message(wrong ?? "");
-      const ways = element("way");
-      ways.replaceChildren(...page.ways().map((name) => new Option(name)));
-      page.way(ways.value);
-      wanted = true;
-    });
+    page.make();
+  };
+
+  // Whether the work is over; what went wrong is told, and what was there before stays.
+  const made = () => {
+    const wrong = page.take();
+    element("work").hidden = wrong !== undefined;
+    if (wrong === undefined) {
+      element("told").value = page.stage();
+      element("work").value = page.share();
+      return false;
+    }
+    if (wrong) message(wrong);
+    ways.replaceChildren(...page.ways().map((name) => new Option(name)));
+    ways.value = page.chosen();
+    if (ways.selectedIndex < 0) ways.selectedIndex = 0;
+    page.way(ways.value);
+    return true;
   };
 
   const frame = () => {
     requestAnimationFrame(frame);
-    if (working) return void (element("told").value = page.progress());
+    if (working) {
+      if (!made()) return;
+      working = false;
+      wanted = true;
+    }
+    if (!ways.length) return;
     const ratio = Math.min(devicePixelRatio, 1.5);
     const [width, height] = [picture.clientWidth, picture.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
     if (!wanted && picture.width === width && picture.height === height) return;
@@ -64,6 +80,8 @@ function plain(why) {
       context.putImageData(new ImageData(new Uint8ClampedArray(bytes.buffer), width, height), 0, 0);
       element("told").value = `drawn by the CPU in ${page.milliseconds().toFixed(1)} ms`;
     } catch (error) {
+      // Once, not at every frame.
+      [picture.width, picture.height] = [width, height];
       message(String(error));
     }
   };
@@ -89,11 +107,12 @@ function plain(why) {
     const step = { ArrowLeft: [-0.06, 0], ArrowRight: [0.06, 0], ArrowUp: [0, -0.06], ArrowDown: [0, 0.06] }[event.key];
     if (step) moved(...step, element("light").checked || event.shiftKey);
   });
-  element("way").addEventListener("change", (event) => {
+  ways.addEventListener("change", (event) => {
     page.way(event.target.value);
     wanted = true;
   });
   const open = async (file) => {
+    message("");
     page.open(file.name, new Uint8Array(await file.arrayBuffer()));
     make();
   };
@@ -106,6 +125,8 @@ function plain(why) {
   make();
   frame();
 }
+
+element("message").addEventListener("click", () => message(""));
 
 async function begin() {
   try {

@@ -1,11 +1,10 @@
-// Makes a subject beside the page: one message in, progress and one answer out.
+// Makes a subject beside the page: a compiled module and a recipe in, progress and one answer out.
 import init, { work } from "./rilievo.js";
 
-const ready = init({ module_or_path: new URL("rilievo_bg.wasm", import.meta.url) });
-onmessage = async ({ data }) => {
+onmessage = async ({ data: { module, recipe } }) => {
   try {
-    await ready;
-    const subject = work(data, (stage, share) => postMessage({ stage, share }));
+    await init({ module_or_path: module });
+    const subject = work(recipe, (stage, share) => postMessage({ stage, share }));
     postMessage({ subject: subject.buffer }, [subject.buffer]);
   } catch (error) {
     postMessage({ error: String(error) });

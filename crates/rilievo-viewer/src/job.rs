@@ -50,14 +50,17 @@ pub(crate) type Made = Arc<Mutex<Option<Result<Subject, String>>>>;
 pub struct Job {
     meter: Arc<Meter>,
     result: Made,
+    /// Nobody waits for what a job makes that is given up.
+    #[cfg(target_arch = "wasm32")]
+    _work: Option<crate::web::Work>,
 }
 
 impl Job {
     /// Begins to make a subject; `done` is called when it is there.
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn begin(recipe: Recipe, done: impl FnOnce() + Send + 'static) -> Self {
+    pub fn begin(recipe: &Recipe, done: impl FnOnce() + Send + 'static) -> Self {
         let job = Self { meter: Arc::default(), result: Arc::default() };
-        let (meter, result) = (Arc::clone(&job.meter), Arc::clone(&job.result));
+        let (recipe, meter, result) = (recipe.clone(), Arc::clone(&job.meter), Arc::clone(&job.result));
         let work = move || {
             let made = crate::subject::make(&recipe, meter.as_ref());
             *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
@@ -72,10 +75,10 @@ impl Job {
 
     /// Begins to make a subject; `done` is called when it is there.
     #[cfg(target_arch = "wasm32")]
-    pub fn begin(recipe: Recipe, done: impl FnOnce() + 'static) -> Self {
-        let job = Self { meter: Arc::default(), result: Arc::default() };
-        crate::web::begin(&recipe, Arc::clone(&job.meter), Arc::clone(&job.result), Box::new(done));
-        job
+    pub fn begin(recipe: &Recipe, done: impl Fn() + 'static) -> Self {
+        let (meter, result): (Arc<Meter>, Made) = Default::default();
+        let work = crate::web::begin(recipe, Arc::clone(&meter), Arc::clone(&result), Box::new(done));
+        Self { meter, result, _work: work }
     }
 
     /// How far it is.

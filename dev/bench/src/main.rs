@@ -13,6 +13,7 @@ mod inputs;
 mod light;
 mod machine;
 mod models;
+mod page;
 mod polar;
 mod quantize;
 mod raster;
@@ -45,7 +46,7 @@ mod gpu {
     }
 }
 
-const GROUPS: [Group; 12] = [
+const GROUPS: [Group; 13] = [
     Group { name: "quantize", what: "error of tables against the best there can be", run: quantize::run },
     Group {
         name: "scale",
@@ -61,6 +62,7 @@ const GROUPS: [Group; 12] = [
     Group { name: "height", what: "height → normal against copying the same bytes", run: height::run },
     Group { name: "light", what: "a table lit sixteen normals at a time against one at a time", run: light::run },
     Group { name: "models", what: "a table's light against a frame's and against every pixel's", run: models::run },
+    Group { name: "page", what: "the viewer in a browser: loading, a dropped map, frames", run: page::run },
     Group { name: "polar", what: "models of bump units against the same products in floats", run: polar::run },
     Group { name: "relight", what: "rewriting a palette against looking up every texel", run: relight::run },
     Group { name: "raster", what: "frames against lavapipe, SwiftShader and euc", run: raster::run },

@@ -13,6 +13,14 @@ use crate::skip::has_program;
 /// How long a page may take for anything.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// Between two movements of a hand: a frame or more.
+const BETWEEN: Duration = Duration::from_millis(60);
+
+/// Where a hand passes.
+fn way(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    (1..=8).map(move |step| [0, 1].map(|i: usize| from[i] + (to[i] - from[i]) * f64::from(step) / 8.0))
+}
+
 /// Chromium without a window, with one page.
 #[derive(Debug)]
 pub struct Browser {
@@ -42,15 +50,30 @@ impl Browser {
     /// # Panics
     /// As [`Browser::start`].
     pub fn start_with_gpu() -> Option<Self> {
-        Self::launch(&[
-            "--enable-unsafe-webgpu",
-            "--use-webgpu-adapter=swiftshader",
-            "--enable-features=Vulkan",
-            "--use-vulkan=swiftshader",
-            "--use-angle=swiftshader",
-            "--enable-unsafe-swiftshader",
-        ])
+        Self::launch(Self::SOFTWARE_GPU)
     }
+
+    /// As [`Browser::start_with_gpu`], on a telephone: so many CSS pixels wide and high, two points each, for fingers.
+    ///
+    /// # Panics
+    /// As [`Browser::start`].
+    pub fn start_in_hand([width, height]: [u32; 2]) -> Option<Self> {
+        // Of the browser as a whole: a page for which the points are overridden sees other sizes of its own canvas.
+        let mut browser = Self::launch(&[Self::SOFTWARE_GPU, &["--force-device-scale-factor=2"]].concat())?;
+        let screen = json!({ "width": width, "height": height, "deviceScaleFactor": 0, "mobile": true });
+        browser.call("Emulation.setDeviceMetricsOverride", &screen);
+        browser.call("Emulation.setTouchEmulationEnabled", &json!({ "enabled": true }));
+        Some(browser)
+    }
+
+    const SOFTWARE_GPU: &[&str] = &[
+        "--enable-unsafe-webgpu",
+        "--use-webgpu-adapter=swiftshader",
+        "--enable-features=Vulkan",
+        "--use-vulkan=swiftshader",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+    ];
 
     fn launch(flags: &[&str]) -> Option<Self> {
         if !cfg!(unix) || !has_program("chromium") {
@@ -103,6 +126,24 @@ impl Browser {
         self.wait_until("document.readyState === 'complete' && location.protocol !== 'about:'");
     }
 
+    /// Runs a script in every page that is opened from now on, before the page's own.
+    pub fn before(&mut self, script: &str) {
+        self.call("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": script }));
+    }
+
+    /// Draws a finger along, in CSS pixels.
+    pub fn swipe(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let mut touch = |what: &str, points: Value| {
+            self.call("Input.dispatchTouchEvent", &json!({ "type": what, "touchPoints": points }));
+            std::thread::sleep(BETWEEN);
+        };
+        touch("touchStart", json!([{ "x": from[0], "y": from[1] }]));
+        for [x, y] in way(from, to) {
+            touch("touchMove", json!([{ "x": x, "y": y }]));
+        }
+        touch("touchEnd", json!([]));
+    }
+
     /// What is to be seen, as a PNG.
     ///
     /// # Panics
@@ -114,21 +155,43 @@ impl Browser {
 
     /// Presses a button, `left` or `right`, at a place of the page, draws the mouse along, and lets go.
     pub fn drag(&mut self, button: &str, from: [f64; 2], to: [f64; 2]) {
-        const STEPS: u32 = 8;
         let held = if button == "right" { 2 } else { 1 };
         let mut event = |what: &str, [x, y]: [f64; 2], buttons: u32| {
             let event = json!({ "type": what, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
             self.call("Input.dispatchMouseEvent", &event);
-            // As from a hand: a frame or more apart.
-            std::thread::sleep(Duration::from_millis(60));
+            std::thread::sleep(BETWEEN);
         };
         event("mouseMoved", from, 0);
         event("mousePressed", from, held);
-        for step in 1..=STEPS {
-            let share = f64::from(step) / f64::from(STEPS);
-            event("mouseMoved", [0, 1].map(|i: usize| from[i] + (to[i] - from[i]) * share), held);
+        for place in way(from, to) {
+            event("mouseMoved", place, held);
         }
         event("mouseReleased", to, 0);
+    }
+
+    /// Hands a file to the page, to be dropped later.
+    pub fn take_in_hand(&mut self, name: &str, bytes: &[u8]) {
+        let text = to_base64(bytes);
+        self.eval(&format!(
+            "(async () => {{ const read = await fetch('data:application/octet-stream;base64,{text}'); \
+             globalThis.inHand = new File([await read.arrayBuffer()], {name:?}); }})()"
+        ));
+    }
+
+    /// Drops that file on what is in the middle of the page; gives the page's clock, in milliseconds.
+    pub fn let_go(&mut self) -> f64 {
+        let now = self.eval(
+            "(() => { const t = new DataTransfer(); t.items.add(inHand); const now = performance.now(); \
+             [...document.querySelectorAll('canvas')].find((c) => c.clientWidth > 0) \
+             .dispatchEvent(new DragEvent('drop', { dataTransfer: t, bubbles: true, cancelable: true })); return now; })()",
+        );
+        now.as_f64().expect("a time")
+    }
+
+    /// Drops a file on what is in the middle of the page.
+    pub fn drop_file(&mut self, name: &str, bytes: &[u8]) {
+        self.take_in_hand(name, bytes);
+        self.let_go();
     }
 
     /// The value of an expression on the page; of a promise, what it comes to.
@@ -206,6 +269,62 @@ impl Browser {
     }
 }
 
+/// Where `cargo xtask web` puts the page, and the program that serves it.
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/web/page");
+const SERVER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/web/serve");
+
+/// The viewer's page, served to this machine.
+#[derive(Debug)]
+pub struct Server {
+    child: Child,
+    address: String,
+}
+
+impl Server {
+    /// Serves the page that was built.
+    ///
+    /// # Panics
+    /// If none was: `cargo xtask web --build` builds it.
+    pub fn start() -> Self {
+        assert!(Path::new(PAGE).join("index.html").is_file(), "no page: `cargo xtask web --build` makes it");
+        let mut child = Command::new(SERVER)
+            .args(["--only-serve", PAGE])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the server of `cargo xtask web --build`");
+        let mut address = String::new();
+        let told = child.stdout.take().map(BufReader::new).map(|mut told| told.read_line(&mut address));
+        assert!(matches!(told, Some(Ok(_))) && !address.is_empty(), "the server does not tell its address");
+        Self { child, address: address.trim().to_owned() }
+    }
+
+    /// Where it is, with a slash at the end.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // As with the browser.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Bytes as a text (RFC 4648).
+fn to_base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let bits = (0..3).fold(0u32, |bits, i| bits << 8 | u32::from(three.get(i).copied().unwrap_or(0)));
+        let digit = |i: usize| char::from(DIGITS[(bits >> (18 - 6 * i)) as usize & 63]);
+        text.extend((0..4).map(|i| if i <= three.len() { digit(i) } else { '=' }));
+    }
+    text
+}
+
 /// The bytes of a text of the browser's (RFC 4648).
 fn from_base64(text: &str) -> Vec<u8> {
     let value = |c: u8| match c {
@@ -245,5 +364,9 @@ mod tests {
         let decoded = |text| String::from_utf8(from_base64(text)).unwrap();
         assert_eq!(["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg=="].map(decoded), ["", "f", "fo", "foo", "foob"]);
         assert_eq!(from_base64("+/8A"), [0xfb, 0xff, 0]);
+        for bytes in [&b""[..], b"f", b"fo", b"foo", b"foob", &[0xfb, 0xff, 0]] {
+            assert_eq!(from_base64(&to_base64(bytes)), bytes);
+        }
+        assert_eq!(to_base64(b"foob"), "Zm9vYg==");
     }
 }

@@ -35,6 +35,9 @@ pub(crate) fn run(options: &Options) -> Result<()> {
         // Measured as users have it.
         Run::cargo().args(["build", "--release", "--quiet", "--package", "rilievo-cli"]).wait()?;
     }
+    if asked("page") {
+        crate::web::build()?;
+    }
     let mut run = Run::cargo();
     if options.native {
         run = run.env(NATIVE, native()?);

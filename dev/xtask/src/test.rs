@@ -2,7 +2,7 @@
 
 use crate::run::{Run, has_cargo_command, is_ci};
 use crate::skips::{SkipLog, VARIABLE};
-use crate::{hygiene, needs, rtl, smoke};
+use crate::{hygiene, needs, rtl, smoke, web};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::collections::BTreeSet;
@@ -45,6 +45,13 @@ pub(crate) const STEPS: &[Step] = &[
         tools: &["verilator", "yosys"],
         slow: false,
         run: |_| rtl::run(&rtl::Options::default()),
+    },
+    Step {
+        name: "page",
+        what: "the viewer in a real browser",
+        tools: &["rustup", "chromium"],
+        slow: true,
+        run: |_| web::build().and_then(|()| web::drive()),
     },
     Step { name: "demo", what: "the real program, from end to end", tools: &[], slow: true, run: |_| smoke::run() },
 ];
@@ -143,7 +150,7 @@ fn fmt() -> Result<()> {
 }
 
 /// The program with its window: what is left out of the plain one is little, and the `demo` step builds that.
-const WITH_WINDOW: &str = "--features=rilievo-cli/view";
+pub(crate) const WITH_WINDOW: &str = "--features=rilievo-cli/view";
 
 fn clippy() -> Result<()> {
     Run::cargo().args(["clippy", "--workspace", WITH_WINDOW, "--all-targets", "--", "-D", "warnings"]).wait()

@@ -1,6 +1,7 @@
 //! The window: a picture in the middle, what it depends on beside it.
 
 mod files;
+mod pace;
 mod pane;
 mod panel;
 mod picture;
@@ -8,7 +9,7 @@ mod picture;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use eframe::egui;
+use eframe::egui::{self, FontData, FontDefinitions};
 use eframe::egui_wgpu::RenderState;
 use rilievo::measure::picture_stats;
 use rilievo::raster::TextureFilter;
@@ -31,6 +32,15 @@ const NARROW: f32 = 720.0;
 pub(crate) enum Engine {
     Gpu,
     Cpu,
+}
+
+impl Engine {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Gpu => "GPU",
+            Self::Cpu => "CPU",
+        }
+    }
 }
 
 /// What a drag turns.
@@ -67,9 +77,20 @@ pub struct Start {
     pub lost: Arc<AtomicBool>,
 }
 
+/// One font for every text.
+fn fonts() -> FontDefinitions {
+    let name = "Ubuntu Light";
+    let mut fonts = FontDefinitions::empty();
+    fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(epaint_default_fonts::UBUNTU_LIGHT)));
+    fonts.families.values_mut().for_each(|family| family.push(name.to_owned()));
+    fonts
+}
+
 /// The viewer.
 pub struct Viewer {
     recipe: Recipe,
+    /// What the subject was made by.
+    made_by: Recipe,
     job: Option<Job>,
     subject: Option<Arc<Subject>>,
     look: Look,
@@ -88,6 +109,8 @@ pub struct Viewer {
     compared: Arc<std::sync::Mutex<Option<(Instant, Difference)>>>,
     #[cfg(target_arch = "wasm32")]
     asked: Option<Instant>,
+    #[cfg(target_arch = "wasm32")]
+    words: crate::web::Words,
     /// When something last changed in the picture.
     changed: Instant,
 }
@@ -95,9 +118,13 @@ pub struct Viewer {
 impl Viewer {
     /// A viewer on the window's own device, if it has one.
     pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
+        context.egui_ctx.set_fonts(fonts());
         let state = context.wgpu_render_state.clone();
         let gpu = state.as_ref().map(|state| {
             let gpu = Gpu::from_device(state.device.clone(), state.queue.clone(), state.adapter.get_info());
+            // A picture that nobody touches would not notice.
+            let again = context.egui_ctx.clone();
+            gpu.on_trouble(move || again.request_repaint());
             Renderer::new(&gpu)
         });
         let mut notes = start.notes;
@@ -114,6 +141,7 @@ impl Viewer {
             colored: true,
         };
         let mut viewer = Self {
+            made_by: start.recipe.clone(),
             recipe: start.recipe,
             job: None,
             subject: None,
@@ -132,6 +160,8 @@ impl Viewer {
             compared: Arc::default(),
             #[cfg(target_arch = "wasm32")]
             asked: None,
+            #[cfg(target_arch = "wasm32")]
+            words: Default::default(),
             changed: Instant::now(),
         };
         for file in start.files {
@@ -154,7 +184,7 @@ impl Viewer {
     /// Begins to make what the recipe says.
     fn make(&mut self, context: &egui::Context) {
         let again = context.clone();
-        self.job = Some(Job::begin(self.recipe.clone(), move || again.request_repaint()));
+        self.job = Some(Job::begin(&self.recipe, move || again.request_repaint()));
     }
 
     fn poll(&mut self, context: &egui::Context) {
@@ -171,8 +201,17 @@ impl Viewer {
         let Some(made) = self.job.as_ref().and_then(Job::take) else { return };
         self.job = None;
         match made {
-            Ok(subject) => self.show(subject),
-            Err(why) => self.notes.push(why),
+            Ok(subject) => {
+                self.made_by = self.recipe.clone();
+                self.show(subject);
+            }
+            Err(why) => {
+                self.notes.push(why);
+                // What is to be seen stays, and so does what it is made by.
+                if self.subject.is_some() {
+                    self.recipe = self.made_by.clone();
+                }
+            }
         }
     }
 
@@ -325,6 +364,10 @@ impl Viewer {
             if input.key_pressed(Key::Space) {
                 self.spins = !self.spins;
             }
+            if input.key_pressed(Key::C) {
+                let gpu = self.engine == Engine::Cpu && self.gpu.is_some();
+                self.engine = if gpu { Engine::Gpu } else { Engine::Cpu };
+            }
             if input.key_pressed(Key::S) {
                 self.toggle_split();
             }
@@ -335,6 +378,19 @@ impl Viewer {
                 }
             }
         });
+    }
+
+    /// Tells the page what is to be seen.
+    #[cfg(target_arch = "wasm32")]
+    fn tell(&mut self, context: &egui::Context) {
+        let Some(subject) = &self.subject else { return };
+        let other = self.look.other.map_or(String::new(), |(way, _)| format!(" beside {}", way.name()));
+        let notes = if self.notes.is_empty() { String::new() } else { format!("; {}", self.notes.join("; ")) };
+        let shown = format!("{}: {}{other}, by {}{notes}", subject.name, self.look.way.name(), self.engine.name());
+        if let Some(wait) = self.words.tell(shown, &self.figures().join("; ")) {
+            context.request_repaint_after(wait);
+        }
+        crate::web::remember(&self.recipe, &self.look);
     }
 
     fn toggle_split(&mut self) {
@@ -363,6 +419,8 @@ impl eframe::App for Viewer {
             egui::Panel::right("panel").default_size(300.0).resizable(true).show(ui, |ui| self.panel(ui));
         }
         egui::CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
+        #[cfg(target_arch = "wasm32")]
+        self.tell(&context);
         let stage = self.job.as_ref().map(|job| job.meter().read());
         if let Some((stage, share)) = stage {
             self.waiting(&context, &stage, share);

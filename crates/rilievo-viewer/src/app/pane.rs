@@ -7,8 +7,10 @@ use eframe::egui_wgpu::RenderState;
 use eframe::wgpu::FilterMode;
 use rilievo::color::Picture;
 use rilievo_gpu::Renderer;
+use web_time::{Duration, Instant};
 
 use super::Engine;
+use super::pace::Pace;
 use crate::canvas::{CpuSide, GpuSide, Set, Times};
 use crate::look::{Look, Way};
 use crate::subject::Subject;
@@ -32,7 +34,10 @@ pub(super) struct Pane {
     texture: Option<TextureId>,
     handle: Option<TextureHandle>,
     drawn: Option<Drawn>,
-    pub(super) times: Times,
+    /// What the last frame of each engine took.
+    times: [Option<Times>; 2],
+    /// Seconds from frame to frame, of each engine.
+    paces: [Pace; 2],
 }
 
 impl Pane {
@@ -42,6 +47,7 @@ impl Pane {
             return;
         }
         self.drawn = None;
+        self.forget_times();
         match Set::new(subject, look, way, size) {
             Ok(set) => (self.set, self.why_not) = (Some(Arc::new(set)), None),
             Err(why) => (self.set, self.why_not) = (None, Some(why)),
@@ -53,7 +59,13 @@ impl Pane {
         // Where the two pictures meet, and what the other one is, does not matter to this one.
         let look = Look { other: None, ..look.clone() };
         let now = Drawn { look, size, engine };
+        if self.drawn.as_ref().is_some_and(|d| d.size != size || d.look.filter != now.look.filter) {
+            self.forget_times();
+        }
         let stale = self.drawn.as_ref() != Some(&now);
+        if !stale {
+            self.paces[engine as usize].rested();
+        }
         self.drawn = Some(now);
         stale
     }
@@ -69,7 +81,9 @@ impl Pane {
         renderer.gpu().check()?;
         let Some(set) = self.set.clone() else { return Ok(false) };
         if !self.is_stale(look, size, Engine::Gpu) {
-            self.times.draw = self.gpu.draw_time(renderer);
+            if let Some(times) = &mut self.times[Engine::Gpu as usize] {
+                times.draw = self.gpu.draw_time(renderer);
+            }
             return Ok(false);
         }
         let drawn = self.gpu.draw(renderer, &set, look, size);
@@ -82,7 +96,7 @@ impl Pane {
             }
             Err(error) => return Err(error),
         };
-        self.times = times;
+        self.took(Engine::Gpu, times);
         if let Some(target) = self.gpu.target().filter(|_| is_new || self.texture.is_none()) {
             let mut shown = state.renderer.write();
             match self.texture {
@@ -106,7 +120,7 @@ impl Pane {
             return false;
         }
         match self.cpu.draw(&set, look, size) {
-            Ok(times) => self.times = times,
+            Ok(times) => self.took(Engine::Cpu, times),
             Err(why) => {
                 (self.why_not, self.set) = (Some(why), None);
                 return false;
@@ -120,6 +134,31 @@ impl Pane {
             None => self.handle = Some(context.load_texture("picture", image, TextureOptions::NEAREST)),
         }
         true
+    }
+
+    /// A frame was drawn.
+    fn took(&mut self, engine: Engine, times: Times) {
+        self.times[engine as usize] = Some(times);
+        self.paces[engine as usize].drawn(Instant::now());
+    }
+
+    fn forget_times(&mut self) {
+        self.times = [None; 2];
+        self.paces.iter_mut().for_each(Pace::forget);
+    }
+
+    /// What a frame takes an engine, in words; nothing until it has drawn one of this picture.
+    pub(super) fn figures(&self, engine: Engine) -> Option<String> {
+        let times = self.times[engine as usize].as_ref()?;
+        let milliseconds = |time: Duration| format!("{:.2} ms", time.as_secs_f64() * 1e3);
+        let mut parts = Vec::new();
+        if engine == Engine::Gpu {
+            let kilobytes = times.bytes as f64 / 1e3;
+            parts.push(format!("table and upload {}, {kilobytes:.1} kB", milliseconds(times.table)));
+        }
+        parts.extend(times.draw.map(|time| format!("drawn in {}", milliseconds(time))));
+        parts.extend(self.paces[engine as usize].frame().map(|time| format!("a frame each {}", milliseconds(time))));
+        Some(format!("{}: {}", engine.name(), parts.join(", ")))
     }
 
     /// What to show.

@@ -28,7 +28,7 @@ impl Viewer {
             ui.collapsing("Keys", |ui| {
                 ui.label(
                     "Drag: turn. Right drag, Shift or L: light. Wheel or pinch: zoom. 1 to 9: method. S: split. \
-                     Space: let the light go round.",
+                     C: GPU or CPU. Space: let the light go round.",
                 );
             });
             theme(ui);
@@ -190,43 +190,37 @@ impl Viewer {
         ui.separator();
     }
 
-    /// One line of figures.
+    /// What is to be seen, and what it takes: a phrase each.
+    pub(super) fn figures(&self) -> Vec<String> {
+        let shown = if self.look.other.is_some() { 2 } else { 1 };
+        let engines = [Engine::Gpu, Engine::Cpu];
+        let mut figures: Vec<String> =
+            self.panes[..shown].iter().flat_map(|pane| engines.into_iter().filter_map(|e| pane.figures(e))).collect();
+        if let Some(subject) = &self.subject {
+            figures.extend(subject.indexed.as_ref().map(|map| format!("{} entries", map.table().len())));
+            figures.extend(subject.error.as_ref().map(|error| {
+                let (rms, max) = (error.rms_rad.to_degrees(), error.max_rad.to_degrees());
+                format!("{rms:.2}° RMS, {max:.1}° at most")
+            }));
+        }
+        figures.extend(self.difference.as_ref().map(|d| {
+            let db = if d.psnr_db.is_finite() { format!("{:.1} dB", d.psnr_db) } else { "no difference".to_owned() };
+            format!("{db}, {} codes at most", d.max_abs)
+        }));
+        figures
+    }
+
+    /// The figures in a line, and what draws.
     pub(super) fn status(&self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
-            let by = match (self.engine, &self.gpu) {
-                (Engine::Gpu, Some(gpu)) => gpu.gpu().short_name().to_owned(),
-                _ => "CPU".to_owned(),
-            };
-            let shown = if self.look.other.is_some() { 2 } else { 1 };
-            for pane in &self.panes[..shown] {
-                let times = &pane.times;
-                let draw = times.draw.map_or("-".to_owned(), |t| format!("{:.2} ms", t.as_secs_f64() * 1e3));
-                if self.engine == Engine::Gpu {
-                    let table = times.table.as_secs_f64() * 1e3;
-                    let bytes = times.bytes as f64 / 1024.0;
-                    ui.label(format!("table and upload {table:.2} ms, {bytes:.1} kB; drawn in {draw}"));
-                } else {
-                    ui.label(format!("drawn in {draw}"));
-                }
+            for figure in self.figures() {
+                ui.label(figure);
                 ui.separator();
             }
-            if let Some(subject) = &self.subject {
-                if let Some(map) = &subject.indexed {
-                    ui.label(format!("{} entries", map.table().len()));
-                }
-                if let Some(error) = &subject.error {
-                    let (rms, max) = (error.rms_rad.to_degrees(), error.max_rad.to_degrees());
-                    ui.label(format!("{rms:.2}° RMS, {max:.1}° at most"));
-                }
-                ui.separator();
-            }
-            if let Some(d) = &self.difference {
-                let db =
-                    if d.psnr_db.is_finite() { format!("{:.1} dB", d.psnr_db) } else { "no difference".to_owned() };
-                ui.label(format!("{db}, {} codes at most", d.max_abs));
-                ui.separator();
-            }
-            ui.weak(by);
+            ui.weak(match (self.engine, &self.gpu) {
+                (Engine::Gpu, Some(gpu)) => gpu.gpu().short_name(),
+                _ => "CPU",
+            });
         });
     }
 }

@@ -6,15 +6,19 @@ mod page;
 mod plain;
 mod wire;
 #[cfg(target_arch = "wasm32")]
+mod words;
+#[cfg(target_arch = "wasm32")]
 mod worker;
 
 #[cfg(target_arch = "wasm32")]
 pub use page::start;
 #[cfg(target_arch = "wasm32")]
-pub(crate) use page::tell_lost;
+pub(crate) use page::{remember, tell_lost};
 #[cfg(target_arch = "wasm32")]
 pub use plain::Plain;
 #[cfg(target_arch = "wasm32")]
-pub(crate) use worker::begin;
+pub(crate) use words::Words;
 #[cfg(target_arch = "wasm32")]
 pub use worker::work;
+#[cfg(target_arch = "wasm32")]
+pub(crate) use worker::{Work, begin};

@@ -1,5 +1,6 @@
 //! The viewer on a canvas.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
@@ -9,6 +10,8 @@ use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
 use crate::app::{Start, Viewer};
+use crate::look::Look;
+use crate::subject::Recipe;
 
 /// Starts the viewer on a canvas.
 ///
@@ -28,6 +31,21 @@ pub async fn start(canvas: HtmlCanvasElement, by_cpu: bool, webgl: bool) -> Resu
     let start = Start { by_cpu, ..Start::default() };
     let make: eframe::AppCreator<'static> = Box::new(move |context| Ok(Box::new(Viewer::new(context, start))));
     WebRunner::new().start(canvas, options, make).await
+}
+
+thread_local! {
+    /// What the viewer shows, for the plain picture that may have to take its place.
+    static SHOWN: RefCell<Option<(Recipe, Look)>> = const { RefCell::new(None) };
+}
+
+/// Keeps what is shown.
+pub(crate) fn remember(recipe: &Recipe, look: &Look) {
+    SHOWN.set(Some((recipe.clone(), look.clone())));
+}
+
+/// What was shown last.
+pub(super) fn shown() -> Option<(Recipe, Look)> {
+    SHOWN.take()
 }
 
 /// Tells the page that the graphics device is gone: its script puts the plain picture in the canvas's place.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use rilievo::raster::TextureFilter;
 use wasm_bindgen::prelude::*;
 
-use super::begin;
+use super::page::shown;
+use super::{Work, begin};
 use crate::canvas::{CpuSide, Set};
 use crate::job::{Made, Meter};
 use crate::look::{Finish, Lamp, Look, Orbit, Way};
@@ -15,6 +16,8 @@ use crate::subject::{File, Recipe, Subject, Surface};
 #[wasm_bindgen]
 pub struct Plain {
     recipe: Recipe,
+    /// What the subject was made by.
+    made_by: Recipe,
     subject: Option<Arc<Subject>>,
     look: Look,
     side: CpuSide,
@@ -22,35 +25,50 @@ pub struct Plain {
     milliseconds: f64,
     meter: Arc<Meter>,
     made: Made,
+    work: Option<Work>,
 }
 
 #[wasm_bindgen]
 impl Plain {
-    /// Begins with the vase; `done` is called when something was made.
+    /// Begins with what the viewer showed, if there was one on this page, else with the vase.
     #[wasm_bindgen(constructor)]
     #[expect(clippy::new_without_default, reason = "a page calls it")]
     pub fn new() -> Self {
-        let look = Look {
-            way: Way::Table,
-            other: None,
-            filter: TextureFilter::Bilinear,
-            finishes: Vec::new(),
-            orbit: Orbit::default(),
-            lamp: Lamp::default(),
-            colored: true,
-        };
-        let recipe = Recipe::default();
+        let (recipe, mut look) = shown().unwrap_or_else(|| {
+            let look = Look {
+                way: Way::Table,
+                other: None,
+                filter: TextureFilter::Bilinear,
+                finishes: Vec::new(),
+                orbit: Orbit::default(),
+                lamp: Lamp::default(),
+                colored: true,
+            };
+            (Recipe::default(), look)
+        });
+        look.other = None;
         let (meter, made) = Default::default();
-        Self { recipe, subject: None, look, side: CpuSide::default(), set: None, milliseconds: 0.0, meter, made }
+        let side = CpuSide::default();
+        Self {
+            made_by: recipe.clone(),
+            recipe,
+            subject: None,
+            look,
+            side,
+            set: None,
+            milliseconds: 0.0,
+            meter,
+            made,
+            work: None,
+        }
     }
 
-    /// Begins to make what is to be seen.
-    pub fn make(&self, done: web_sys::js_sys::Function) {
-        let done = Box::new(move || {
-            // A page that does not listen is drawn at its next frame.
-            let _ = done.call0(&JsValue::NULL);
-        });
-        begin(&self.recipe, Arc::clone(&self.meter), Arc::clone(&self.made), done);
+    /// Begins to make what is to be seen, instead of what is being made.
+    pub fn make(&mut self) {
+        // What comes is asked for by `take`.
+        let done = Box::new(|| ());
+        (self.meter, self.made) = Default::default();
+        self.work = begin(&self.recipe, Arc::clone(&self.meter), Arc::clone(&self.made), done);
     }
 
     /// Takes in a file; `make` comes next.
@@ -64,25 +82,36 @@ impl Plain {
         self.recipe.sample = None;
     }
 
-    /// The stage of the work and its share, for a bar.
-    pub fn progress(&self) -> String {
-        let (stage, share) = self.meter.read();
-        format!("{stage} {:.0} %", share * 100.0)
+    /// The stage of the work.
+    pub fn stage(&self) -> String {
+        self.meter.read().0
     }
 
-    /// Takes what was made; says what went wrong, if anything did.
+    /// The share of the stage that is done.
+    pub fn share(&self) -> f32 {
+        self.meter.read().1
+    }
+
+    /// Takes what was made, if it is there, and says what went wrong with it: an empty text if nothing did.
     pub fn take(&mut self) -> Option<String> {
         let made = self.made.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take()?;
+        self.work = None;
         match made {
             Ok(subject) => {
                 let count = subject.material_count().max(subject.materials.len());
                 let default = subject.materials.first().cloned().unwrap_or_default();
                 let finish = |i: usize| Finish::of(subject.materials.get(i).unwrap_or(&default));
-                self.look.finishes = (0..count).map(finish).collect();
+                if self.look.finishes.len() != count {
+                    self.look.finishes = (0..count).map(finish).collect();
+                }
+                self.made_by = self.recipe.clone();
                 self.subject = Some(Arc::new(subject));
-                None
+                Some(String::new())
             }
-            Err(why) => Some(why),
+            Err(why) => {
+                self.recipe = self.made_by.clone();
+                Some(why)
+            }
         }
     }
 
@@ -106,6 +135,11 @@ impl Plain {
         if let Some(way) = Way::ALL.into_iter().find(|way| way.name() == name) {
             self.look.way = way;
         }
+    }
+
+    /// The way that was chosen.
+    pub fn chosen(&self) -> String {
+        self.look.way.name().to_owned()
     }
 
     /// The names of the ways that the subject can be drawn in.

@@ -1,16 +1,17 @@
 //! Subjects are made in a worker, so that the page goes on.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rilievo::Progress;
 use wasm_bindgen::prelude::*;
-use web_sys::js_sys::{Array, Function, Reflect, Uint8Array};
-use web_sys::{MessageEvent, Worker, WorkerOptions, WorkerType};
+use web_sys::js_sys::{Array, Function, Object, Reflect, Uint8Array};
+use web_sys::{Event, MessageEvent, Worker, WorkerOptions, WorkerType};
 
 use super::wire;
 use crate::job::{Made, Meter};
-use crate::subject::{Recipe, make};
+use crate::subject::{Recipe, Subject, make};
 
 /// Makes what a message asks for, in the worker; `tell` hears of each stage and its share.
 ///
@@ -65,20 +66,42 @@ impl Progress for Teller {
     }
 }
 
-/// Begins a worker with a recipe.
-pub(crate) fn begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn FnOnce()>) {
-    if let Err(why) = try_begin(recipe, meter, Arc::clone(&result), done) {
-        let why = format!("the browser gives no worker: {why:?}");
-        *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(Err(why));
+/// A worker at work; dropped, it stops.
+pub(crate) struct Work {
+    worker: Worker,
+    _hear: Closure<dyn FnMut(MessageEvent)>,
+    _fail: Closure<dyn FnMut(Event)>,
+}
+
+impl Drop for Work {
+    fn drop(&mut self) {
+        self.worker.set_onmessage(None);
+        self.worker.set_onerror(None);
+        self.worker.terminate();
     }
 }
 
-fn try_begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn FnOnce()>) -> Result<(), JsValue> {
+/// Begins a worker with a recipe. What comes of it is put into `result`, and then `done` is called.
+pub(crate) fn begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn Fn()>) -> Option<Work> {
+    match try_begin(recipe, meter, Arc::clone(&result), done) {
+        Ok(work) => Some(work),
+        Err(why) => {
+            put(&result, Err(format!("the browser gives no worker: {why:?}")));
+            None
+        }
+    }
+}
+
+fn put(result: &Made, made: Result<Subject, String>) {
+    *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
+}
+
+fn try_begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn Fn()>) -> Result<Work, JsValue> {
     let options = WorkerOptions::new();
     options.set_type(WorkerType::Module);
     let worker = Worker::new_with_options("./worker.js", &options)?;
-    let message = Uint8Array::from(wire::recipe_to_bytes(recipe).as_slice());
-    let (worker_again, mut done) = (worker.clone(), Some(done));
+    let done: Rc<dyn Fn()> = done.into();
+    let (failed, done_too) = (Arc::clone(&result), Rc::clone(&done));
     let hear = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         let data = event.data();
         let part = |name: &str| Reflect::get(&data, &name.into()).unwrap_or(JsValue::UNDEFINED);
@@ -86,18 +109,28 @@ fn try_begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn FnO
             meter.set(&stage, part("share").as_f64().unwrap_or(0.0) as f32);
             return;
         }
-        let made = match part("error").as_string() {
-            Some(why) => Err(why),
-            None => wire::subject_from_bytes(&Uint8Array::new(&part("subject")).to_vec()),
-        };
-        *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
-        worker_again.terminate();
-        if let Some(done) = done.take() {
-            done();
-        }
+        put(
+            &result,
+            match part("error").as_string() {
+                Some(why) => Err(why),
+                None => wire::subject_from_bytes(&Uint8Array::new(&part("subject")).to_vec()),
+            },
+        );
+        done();
+    });
+    // A worker that was not loaded, or that ran out of memory.
+    let fail = Closure::<dyn FnMut(Event)>::new(move |event: Event| {
+        let why = Reflect::get(&event, &"message".into()).ok().and_then(|m| m.as_string());
+        put(&failed, Err(format!("the worker failed: {}", why.as_deref().unwrap_or("it cannot be loaded"))));
+        done_too();
     });
     worker.set_onmessage(Some(hear.as_ref().unchecked_ref()));
-    // It lives as long as its worker, which ends with its one answer.
-    hear.forget();
-    worker.post_message_with_transfer(&message, &Array::of1(&message.buffer()))
+    worker.set_onerror(Some(fail.as_ref().unchecked_ref()));
+    let bytes = Uint8Array::from(wire::recipe_to_bytes(recipe).as_slice());
+    let message = Object::new();
+    // The module as it is here: the browser need not compile it again.
+    Reflect::set(&message, &"module".into(), &wasm_bindgen::module())?;
+    Reflect::set(&message, &"recipe".into(), &bytes)?;
+    worker.post_message_with_transfer(&message, &Array::of1(&bytes.buffer()))?;
+    Ok(Work { worker, _hear: hear, _fail: fail })
 }

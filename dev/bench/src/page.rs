@@ -1,0 +1,132 @@
+//! The viewer in a browser, on this machine's processor in all of its modes: the browser's GPU is SwiftShader.
+
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+use testkit::browser::{Browser, Server};
+
+use crate::inputs::rough;
+use crate::report::{Case, Report, Unit};
+
+/// Seconds from the call of the page to the first lit frame.
+const LOADED: f64 = 3.0;
+/// Seconds from the drop of a height map of [`SIDE`]² to its surface.
+const RELIT: f64 = 5.0;
+const SIDE: u32 = 2048;
+/// Seconds without a frame in which a page may be called responsive.
+const RESPONSIVE: f64 = 0.25;
+
+/// Notes when the page says what, and when it makes a frame.
+const SPY: &str = "globalThis.said = []; globalThis.frames = []; \
+    addEventListener('DOMContentLoaded', () => { \
+      const words = () => ['state', 'told'].map((id) => document.getElementById(id)?.textContent ?? '').join(' '); \
+      const note = () => said.push([performance.now(), words()]); \
+      new MutationObserver(note).observe(document.body, { subtree: true, childList: true, characterData: true }); \
+      const frame = (now) => { frames.push(now); requestAnimationFrame(frame); }; requestAnimationFrame(frame); });";
+
+/// A way to see the page.
+struct Mode {
+    name: &'static str,
+    query: &'static str,
+    /// Whether the browser has something like a GPU.
+    gpu: bool,
+}
+
+const MODES: [Mode; 4] = [
+    Mode { name: "webgpu", query: "", gpu: true },
+    Mode { name: "webgl", query: "?webgl", gpu: true },
+    Mode { name: "cpu", query: "?cpu", gpu: true },
+    Mode { name: "plain", query: "", gpu: false },
+];
+
+pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
+    let map = rilievo_io::encode_gray_png16(&rough(SIDE)?)?;
+    let server = Server::start();
+    for mode in MODES {
+        let mut loads = Vec::new();
+        let mut last = None;
+        for _ in 0..rounds.min(5) {
+            let Some(mut browser) = start(&mode) else {
+                report.remark("page: there is no chromium; left out");
+                return Ok(());
+            };
+            browser.before(SPY);
+            browser.go_to(&format!("{}{}", server.address(), mode.query));
+            loads.push(wait(&mut browser, 0.0, "")?.0);
+            last = Some(browser);
+        }
+        let Some(mut browser) = last else { continue };
+        loads.sort_by(f64::total_cmp);
+        add(report, format!("page/{}-load", mode.name), loads[loads.len() / 2], LOADED, "to the first lit frame")?;
+        browser.take_in_hand("relief.png", &map);
+        sleep(Duration::from_secs(1));
+        let start = browser.let_go();
+        let (end, _) = wait(&mut browser, start / 1e3, "relief")?;
+        let seconds = end - start / 1e3;
+        add(report, format!("page/{}-drop", mode.name), seconds, RELIT, "a height map of 2048 × 2048 to its surface")?;
+        let longest = browser.eval(&format!(
+            "frames.filter((t) => t > {start} && t < {end}).reduce(([g, l], t) => [Math.max(g, t - l), t], [0, {start}])[0]",
+            end = end * 1e3
+        ));
+        let longest = longest.as_f64().context("frames")? / 1e3;
+        add(
+            report,
+            format!("page/{}-stop", mode.name),
+            longest,
+            RESPONSIVE,
+            "the longest time without a frame meanwhile",
+        )?;
+        frames(&mut browser, &mode, report)?;
+    }
+    Ok(())
+}
+
+fn start(mode: &Mode) -> Option<Browser> {
+    if mode.gpu {
+        Browser::start_with_gpu()
+    } else {
+        Browser::start(&["--disable-3d-apis", "--disable-software-rasterizer"])
+    }
+}
+
+fn add(report: &mut Report, name: String, ours: f64, limit: f64, note: &str) -> Result<()> {
+    let note = format!("{note}; peer is the limit");
+    report.add(&Case { target: Some(1.0), note, ..Case::new(name, Unit::Seconds, ours, Some(limit)) })
+}
+
+/// Waits until the page, after a time of its own, has drawn something by this name; gives the time and the words.
+fn wait(browser: &mut Browser, after: f64, name: &str) -> Result<(f64, String)> {
+    let begun = Instant::now();
+    while begun.elapsed() < Duration::from_secs(60) {
+        let found = browser.eval(&format!(
+            "said.find(([t, w]) => t > {} && ((w.includes('entries') && w.includes({name:?})) || w.includes('drawn by the CPU')))",
+            after * 1e3
+        ));
+        if let (Some(time), Some(words)) = (found[0].as_f64(), found[1].as_str()) {
+            return Ok((time / 1e3, words.to_owned()));
+        }
+        sleep(Duration::from_millis(20));
+    }
+    bail!("the page says: {:?}; {:?}", browser.eval("said.at(-1)"), browser.complaints)
+}
+
+/// Lets the light go round, drawn by the GPU and then by the CPU, and tells what the page tells.
+fn frames(browser: &mut Browser, mode: &Mode, report: &mut Report) -> Result<()> {
+    if mode.gpu {
+        browser.drag("left", [200.0, 400.0], [204.0, 400.0]);
+        browser.key(" ");
+        sleep(Duration::from_secs(4));
+        browser.key("c");
+        sleep(Duration::from_secs(4));
+        browser.key("c");
+        sleep(Duration::from_secs(1));
+    } else {
+        for step in 0..10 {
+            browser.drag("right", [200.0, 400.0], [210.0 + f64::from(step), 400.0]);
+        }
+    }
+    let words = browser.eval("said.at(-1)[1]");
+    report.remark(&format!("page/{}: {}", mode.name, words.as_str().context("words")?.trim()));
+    Ok(())
+}
