@@ -44,9 +44,12 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
     let map = rilievo_io::encode_gray_png16(&rough(SIDE)?)?;
     let server = Server::start();
     for mode in MODES {
+        if std::env::var("MODE").is_ok_and(|m| m != mode.name) { continue; }
         let mut loads = Vec::new();
         let mut last = None;
         for _ in 0..rounds.min(5) {
+            // One at a time.
+            drop(last.take());
             let Some(mut browser) = start(&mode) else {
                 report.remark("page: there is no chromium; left out");
                 return Ok(());
@@ -126,6 +129,7 @@ fn frames(browser: &mut Browser, mode: &Mode, report: &mut Report) -> Result<()>
             browser.drag("right", [200.0, 400.0], [210.0 + f64::from(step), 400.0]);
         }
     }
+    if std::env::var_os("SAID").is_some() { let v = browser.eval("said.map(([t,w])=>Math.round(t)+' '+w)"); for l in v.as_array().context("x")? { report.remark(&l.to_string()); } }
     let words = browser.eval("said.at(-1)[1]");
     report.remark(&format!("page/{}: {}", mode.name, words.as_str().context("words")?.trim()));
     Ok(())

@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
@@ -79,8 +80,9 @@ impl Browser {
         if !cfg!(unix) || !has_program("chromium") {
             return None;
         }
-        let name = format!("rilievo-browser-{}-{:?}", std::process::id(), std::thread::current().id());
-        let folder = std::env::temp_dir().join(name.replace(['(', ')'], ""));
+        static STARTED: AtomicU32 = AtomicU32::new(0);
+        let name = format!("rilievo-browser-{}-{}", std::process::id(), STARTED.fetch_add(1, Ordering::Relaxed));
+        let folder = std::env::temp_dir().join(name);
         fs::create_dir_all(&folder).expect("a temporary folder");
         let [to, from] = ["to", "from"].map(|name| folder.join(name));
         let made = Command::new("mkfifo").args([&to, &from]).status().expect("mkfifo runs");
