@@ -20,7 +20,7 @@ async function viewer() {
   const lost = (why) => plain(`${why}: the CPU draws now. Loading the page again gives a new one.`);
   canvas.addEventListener("webglcontextlost", () => lost("The graphics context was lost"));
   addEventListener("rilievo-lost", () => lost("The graphics device was lost"));
-  await start(canvas, wishes.has("cpu"), wishes.has("webgl"));
+  await start(canvas, wishes.has("cpu"), wishes.has("webgl"), new Uint8Array(await font));
   message("");
 }
 
@@ -127,6 +127,10 @@ function plain(why) {
 }
 
 element("message").addEventListener("click", () => message(""));
+
+// On its way while the module is.
+const font = fetch(new URL("font.ttf", import.meta.url)).then((answer) => answer.arrayBuffer());
+font.catch(() => {});
 
 async function begin() {
   try {

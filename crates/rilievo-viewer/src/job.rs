@@ -63,6 +63,10 @@ impl Job {
         let (recipe, meter, result) = (recipe.clone(), Arc::clone(&job.meter), Arc::clone(&job.result));
         let work = move || {
             let made = crate::subject::make(&recipe, meter.as_ref());
+            // Nothing has to be carried anywhere: what a method may ask for is made here, beside the window.
+            if let Ok(Subject { tangent: Some(tangents), .. }) = &made {
+                tangents.levels();
+            }
             *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
             done();
         };

@@ -15,7 +15,7 @@ pub mod subject;
 #[cfg(any(target_arch = "wasm32", test))]
 mod web;
 
-pub use app::{Start, Viewer};
+pub use app::{Font, Start, Viewer};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::run;
 #[cfg(target_arch = "wasm32")]

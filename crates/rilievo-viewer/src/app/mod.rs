@@ -58,6 +58,27 @@ struct Difference {
     max_abs: u8,
 }
 
+/// A font, as a file of TrueType or OpenType. By itself the one that a window has; a page has none of its own.
+#[derive(Debug, Clone)]
+pub struct Font(FontData);
+
+impl Font {
+    /// A font that was read from somewhere.
+    pub fn new(bytes: Vec<u8>) -> Self {
+        Self(FontData::from_owned(bytes))
+    }
+}
+
+impl Default for Font {
+    fn default() -> Self {
+        #[cfg(not(target_arch = "wasm32"))]
+        let bytes = epaint_default_fonts::UBUNTU_LIGHT;
+        #[cfg(target_arch = "wasm32")]
+        let bytes = &[];
+        Self(FontData::from_static(bytes))
+    }
+}
+
 /// What the window starts with.
 #[derive(Debug, Clone, Default)]
 pub struct Start {
@@ -73,15 +94,17 @@ pub struct Start {
     pub by_cpu: bool,
     /// What the user should know at once.
     pub notes: Vec<String>,
+    /// The font of all texts.
+    pub font: Font,
     /// Where a viewer says that its graphics device is gone, and closes: only a new window has a new device.
     pub lost: Arc<AtomicBool>,
 }
 
 /// One font for every text.
-fn fonts() -> FontDefinitions {
-    let name = "Ubuntu Light";
+fn fonts(font: FontData) -> FontDefinitions {
+    let name = "the font";
     let mut fonts = FontDefinitions::empty();
-    fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(epaint_default_fonts::UBUNTU_LIGHT)));
+    fonts.font_data.insert(name.to_owned(), Arc::new(font));
     fonts.families.values_mut().for_each(|family| family.push(name.to_owned()));
     fonts
 }
@@ -118,7 +141,7 @@ pub struct Viewer {
 impl Viewer {
     /// A viewer on the window's own device, if it has one.
     pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
-        context.egui_ctx.set_fonts(fonts());
+        context.egui_ctx.set_fonts(fonts(start.font.0));
         let state = context.wgpu_render_state.clone();
         let gpu = state.as_ref().map(|state| {
             let gpu = Gpu::from_device(state.device.clone(), state.queue.clone(), state.adapter.get_info());

@@ -103,10 +103,11 @@ impl Viewer {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(240.0);
                     ui.label(if stage.is_empty() { "beginning" } else { stage });
-                    ui.add(egui::ProgressBar::new(share.clamp(0.0, 1.0)).animate(true));
+                    ui.add(egui::ProgressBar::new(share.clamp(0.0, 1.0)));
                 });
             });
-        context.request_repaint_after(std::time::Duration::from_millis(50));
+        // Often enough to be seen to move; where the GPU is software, each frame is taken from the work.
+        context.request_repaint_after(std::time::Duration::from_millis(100));
     }
 }
 

@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use glam::Vec2;
 use rilievo::height::{Filter, HeightMap, to_normals};
-use rilievo::normal::{NormalLevels, normal_levels};
+use rilievo::normal::normal_levels;
 use rilievo::quantize::{Effort, Options, quantize};
-use rilievo::surface::{Deflect, Deflected, Mesh, deflect_heights, deflect_normals, shapes};
+use rilievo::surface::{Deflect, Deflected, Frame, Mesh, deflect_heights, deflect_normals, shapes};
 use rilievo::{
     Convention, Edges, Grid, MaterialMap, MipChain, NormalMap, Object as ObjectSpace, Progress, QuantizedMap, Tangent,
 };
 use rilievo_io::{self as io, AnyIndexed, ImportAs, Limits, Source};
 
-use super::{Sample, Subject};
+use super::{Heights, Sample, Subject, Tangents};
 
 /// Width of the samples' maps.
 const SAMPLE_WIDTH: u32 = 1024;
@@ -139,12 +139,12 @@ fn from_sample(recipe: &Recipe, sample: Sample, progress: &dyn Progress) -> Resu
     progress.advance(1);
     let mesh = parts.mesh.with_tangents().map_err(told)?;
     let size = parts.height.heights().size();
-    let flat = to_normals(&parts.height, Filter::Plane4, Edges::Wrap);
     let bent = bend_heights(&mesh, &parts.height, None, size, progress)?;
-    let tangent = normal_levels(flat, parts.kinds.clone(), None).map_err(told)?;
+    let heights = Heights { map: parts.height, materials: parts.kinds.clone(), covered: None };
+    let tangents = Tangents::of_heights(heights).map_err(told)?;
     let mut subject = finish(recipe, mesh, bent, parts.kinds, progress)?;
     subject.name = sample.name().to_owned();
-    subject.tangent = Some((tangent, Vec2::ONE));
+    subject.tangent = Some(tangents);
     subject.base_color = Some((MipChain::from_picture(&parts.color), Vec2::ONE));
     subject.materials = parts.materials;
     Ok(subject)
@@ -179,10 +179,13 @@ fn from_map(recipe: &Recipe, file: &File, progress: &dyn Progress) -> Result<Sub
         progress.advance(1);
         notes.extend(image.warnings);
         let mesh = with_uvs(recipe.surface.mesh(image.normals.size(), &mut notes)?)?;
+        if let Some(frame) = flat_frame(recipe, &mesh) {
+            return lie_flat(recipe, file, (mesh, &frame), (image.normals, None, image.covered), notes, progress);
+        }
         let options = Deflect::new(bent_size(image.normals.size()));
         let bent = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress).map_err(told)?;
         let tangent = normal_levels(image.normals, None, image.covered.as_ref()).map_err(told)?;
-        return close(recipe, file, (mesh, bent, tangent), notes, progress);
+        return close(recipe, file, (mesh, bent, Tangents::of_levels(tangent)), notes, progress);
     }
     let image = io::decode_height(&source, &limits).map_err(|error| {
         format!(
@@ -194,22 +197,60 @@ fn from_map(recipe: &Recipe, file: &File, progress: &dyn Progress) -> Result<Sub
     let height = HeightMap::new(image.heights, recipe.depth).map_err(told)?;
     let size = height.heights().size();
     let mesh = with_uvs(recipe.surface.mesh(size, &mut notes)?)?;
-    let flat = to_normals(&height, Filter::Plane4, Edges::Wrap);
+    if let Some(frame) = flat_frame(recipe, &mesh) {
+        let normals = to_normals(&height, Filter::Plane4, Edges::Wrap);
+        return lie_flat(recipe, file, (mesh, &frame), (normals, Some(height), image.covered), notes, progress);
+    }
     let bent = bend_heights(&mesh, &height, image.covered.as_ref(), bent_size(size), progress)?;
-    let tangent = normal_levels(flat, None, image.covered.as_ref()).map_err(told)?;
-    close(recipe, file, (mesh, bent, tangent), notes, progress)
+    let heights = Heights { map: height, materials: None, covered: image.covered };
+    let tangents = Tangents::of_heights(heights).map_err(told)?;
+    close(recipe, file, (mesh, bent, tangents), notes, progress)
+}
+
+/// The frame of a flat sheet that its map covers once: there is nothing to bend.
+fn flat_frame(recipe: &Recipe, mesh: &Mesh) -> Option<Frame> {
+    matches!(recipe.surface, Surface::Plane).then(|| mesh.constant_frame()).flatten()
+}
+
+/// Lays a map on a flat sheet. The same normals as by bending, which for a large map takes longer than quantising it.
+fn lie_flat(
+    recipe: &Recipe,
+    file: &File,
+    (mesh, frame): (Mesh, &Frame),
+    (normals, heights, covered): (NormalMap<Tangent>, Option<HeightMap>, Option<Grid<bool>>),
+    notes: Vec<String>,
+    progress: &dyn Progress,
+) -> Result<Subject, String> {
+    let options = Options {
+        entries: recipe.entries,
+        effort: recipe.effort,
+        covered: covered.as_ref(),
+        mip_levels: true,
+        ..Options::default()
+    };
+    let quantized = quantize(&normals, &options, progress).map_err(told)?;
+    let tangents = match heights {
+        Some(map) => Tangents::of_heights(Heights { map, materials: None, covered }),
+        None => normal_levels(normals, None, covered.as_ref()).map(Tangents::of_levels),
+    };
+    let name = file.name.clone();
+    let mut subject = Subject { name, notes, ..Subject::plain(mesh) };
+    subject.indexed = Some(quantized.map.map_normals(|n| frame.to_object(n)));
+    subject.error = Some(quantized.error);
+    subject.tangent = Some(tangents.map_err(told)?);
+    Ok(subject)
 }
 
 fn close(
     recipe: &Recipe,
     file: &File,
-    (mesh, bent, tangent): (Mesh, Deflected, NormalLevels<Tangent>),
+    (mesh, bent, tangents): (Mesh, Deflected, Tangents),
     notes: Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Subject, String> {
     let mut subject = finish(recipe, mesh, bent, None, progress)?;
     subject.name = file.name.clone();
-    subject.tangent = Some((tangent, Vec2::ONE));
+    subject.tangent = Some(tangents);
     subject.notes.extend(notes);
     Ok(subject)
 }

@@ -2,7 +2,9 @@
 
 mod make;
 mod sample;
+mod tangents;
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use glam::Vec2;
@@ -13,11 +15,13 @@ use rilievo::normal::{NormalLevels, normal_levels};
 use rilievo::polar::{BumpVectorMap, UnitKind};
 use rilievo::progress::Silent;
 use rilievo::raster::{BaseColor, Detail, Object};
-use rilievo::surface::{Deflect, Mesh, deflect_heights};
-use rilievo::{Edges, Grid, LinearRgb, MipChain, Object as ObjectSpace, QuantizedMap, Tangent};
+use rilievo::surface::{Deflect, Frame, Mesh, deflect_heights};
+use rilievo::{Edges, Grid, LinearRgb, MipChain, NormalMap, Object as ObjectSpace, QuantizedMap, Tangent};
 
 pub use make::{File, Recipe, Surface, make};
 pub use sample::Sample;
+pub(crate) use tangents::Heights;
+pub use tangents::Tangents;
 
 use crate::look::Way;
 
@@ -27,10 +31,10 @@ pub struct Subject {
     pub name: String,
     /// The mesh, with tangents if it has texture coordinates.
     pub mesh: Mesh,
-    /// Normals of the object, if there is more than an index map.
+    /// Normals of the object, if there is more than an index map, and unless it is a flat sheet: there the texture's do.
     pub object: Option<NormalLevels<ObjectSpace>>,
-    /// Normals of the texture's frame, and how often they repeat.
-    pub tangent: Option<(NormalLevels<Tangent>, Vec2)>,
+    /// Normals of the texture's frame.
+    pub tangent: Option<Tangents>,
     /// Index maps and their table.
     pub indexed: Option<QuantizedMap<ObjectSpace>>,
     /// Base colour, and how often it repeats.
@@ -81,11 +85,16 @@ impl Subject {
             Way::Linear | Way::Normalized | Way::Quadratic if self.has_map() && self.tangent.is_none() => {
                 Err("vectors are in the texture's frame, and this map is in the object's")
             }
-            Way::PolarE2 | Way::PolarE3 if self.has_map() && self.object.is_none() => {
+            Way::PolarE2 | Way::PolarE3 if self.has_map() && self.object.is_none() && self.flat().is_none() => {
                 Err("an index map holds no words of a polar unit")
             }
             _ => Ok(()),
         }
+    }
+
+    /// Normals of a flat sheet, and its frame.
+    fn flat(&self) -> Option<(&Tangents, Frame)> {
+        self.tangent.as_ref().zip(self.mesh.constant_frame())
     }
 
     fn has_map(&self) -> bool {
@@ -96,9 +105,16 @@ impl Subject {
     pub fn bump_words(&self, unit: UnitKind) -> Option<&BumpVectorMap> {
         let known = if unit == UnitKind::E3 { &self.bumps[1] } else { &self.bumps[0] };
         let make = || {
-            let object = self.object.as_ref()?;
-            let plain = own_normals(&self.mesh, object.normals.base().size()).ok()?;
-            BumpVectorMap::from_object(unit, &object.normals, &plain).ok()
+            let turned = || {
+                let (tangents, frame) = self.flat()?;
+                let turn = |level: &NormalMap<Tangent>| level.map(|&n| frame.to_object(n));
+                MipChain::from_levels(tangents.levels().normals.levels().iter().map(turn).collect())
+                    .ok()
+                    .map(Cow::Owned)
+            };
+            let normals = self.object.as_ref().map(|o| Cow::Borrowed(&o.normals)).or_else(turned)?;
+            let plain = own_normals(&self.mesh, normals.base().size()).ok()?;
+            BumpVectorMap::from_object(unit, &normals, &plain).ok()
         };
         known.get_or_init(make).as_ref()
     }
@@ -113,13 +129,15 @@ impl Subject {
         let indexed = self.indexed.as_ref().map(Detail::Indexed);
         let object = self.object.as_ref();
         let objects = object.map(|o| Detail::Object { normals: &o.normals, materials: o.materials.as_ref() });
+        let tangents = || {
+            let levels = self.tangent.as_ref()?.levels();
+            Some(Detail::Tangent { normals: &levels.normals, repeat: Vec2::ONE, materials: levels.materials.as_ref() })
+        };
         let detail = match way {
             Way::Table | Way::Expanded => indexed,
-            Way::Exact => objects.or(indexed),
+            Way::Exact => objects.or_else(tangents).or(indexed),
             Way::Static => baked.map(Detail::Baked),
-            Way::Linear | Way::Normalized | Way::Quadratic => self.tangent.as_ref().map(|(levels, repeat)| {
-                Detail::Tangent { normals: &levels.normals, repeat: *repeat, materials: levels.materials.as_ref() }
-            }),
+            Way::Linear | Way::Normalized | Way::Quadratic => tangents(),
             Way::PolarE2 | Way::PolarE3 => way.unit().and_then(|u| self.bump_words(u)).map(|map| Detail::Bump {
                 map,
                 repeat: Vec2::ONE,

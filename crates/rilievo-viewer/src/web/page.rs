@@ -9,16 +9,16 @@ use rilievo_gpu::Gpu;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
-use crate::app::{Start, Viewer};
+use crate::app::{Font, Start, Viewer};
 use crate::look::Look;
 use crate::subject::Recipe;
 
-/// Starts the viewer on a canvas.
+/// Starts the viewer on a canvas, with a font.
 ///
 /// # Errors
 /// If the browser gives no device to draw with: the plain page needs none.
 #[wasm_bindgen]
-pub async fn start(canvas: HtmlCanvasElement, by_cpu: bool, webgl: bool) -> Result<(), JsValue> {
+pub async fn start(canvas: HtmlCanvasElement, by_cpu: bool, webgl: bool, font: Vec<u8>) -> Result<(), JsValue> {
     let mut options = WebOptions::default();
     if let WgpuSetup::CreateNew(WgpuSetupCreateNew { device_descriptor, instance_descriptor, .. }) =
         &mut options.wgpu_options.wgpu_setup
@@ -28,7 +28,7 @@ pub async fn start(canvas: HtmlCanvasElement, by_cpu: bool, webgl: bool) -> Resu
             instance_descriptor.backends = eframe::wgpu::Backends::GL;
         }
     }
-    let start = Start { by_cpu, ..Start::default() };
+    let start = Start { by_cpu, font: Font::new(font), ..Start::default() };
     let make: eframe::AppCreator<'static> = Box::new(move |context| Ok(Box::new(Viewer::new(context, start))));
     WebRunner::new().start(canvas, options, make).await
 }

@@ -4,6 +4,7 @@
 
 use bytemuck::{AnyBitPattern, NoUninit};
 use glam::{Vec2, Vec3};
+use rilievo::height::HeightMap;
 use rilievo::light::Material;
 use rilievo::measure::AngleStats;
 use rilievo::normal::NormalLevels;
@@ -12,7 +13,7 @@ use rilievo::surface::{Mesh, MeshParts};
 use rilievo::{Convention, Edges, Grid, LinearRgb, MaterialSpan, MipChain, Normal, NormalTable, QuantizedMap, Space};
 
 use crate::look::{Finish, Model};
-use crate::subject::{File, Recipe, Sample, Subject, Surface};
+use crate::subject::{File, Heights, Recipe, Sample, Subject, Surface, Tangents};
 
 /// What was not written by [`Writer`].
 type Damage = String;
@@ -42,9 +43,21 @@ impl Writer {
         self.value(chain.levels().len() as u64);
         for level in chain.levels() {
             self.value([level.width(), level.height()]);
-            let parts: Vec<P> = level.texels().iter().map(&part).collect();
-            self.list(&parts);
+            self.value(level.texels().len() as u64);
+            self.0.reserve(size_of_val(level.texels()));
+            for texel in level.texels() {
+                self.value(part(texel));
+            }
         }
+    }
+
+    fn heights(&mut self, heights: &Heights) {
+        let grid = heights.map.heights();
+        self.value([grid.width(), grid.height()]);
+        self.value(heights.map.depth());
+        self.list(grid.texels());
+        self.option(heights.materials.as_ref(), |w, m| w.list(m.texels()));
+        self.option(heights.covered.as_ref(), |w, c| w.list(c.texels()));
     }
 
     fn normals<S: Space>(&mut self, levels: &NormalLevels<S>) {
@@ -86,11 +99,25 @@ impl<'a> Reader<'a> {
         let levels: Result<Vec<Grid<T>>, Damage> = (0..count)
             .map(|_| {
                 let [width, height] = self.value::<[u32; 2]>()?;
-                let parts: Vec<P> = self.list()?;
-                Grid::new(width, height, parts.into_iter().map(&whole).collect()).map_err(told)
+                let len = self.value::<u64>()? as usize;
+                let bytes = self.bytes(len.saturating_mul(size_of::<P>()))?;
+                let parts = bytes.chunks_exact(size_of::<P>()).map(bytemuck::pod_read_unaligned);
+                Grid::new(width, height, parts.map(&whole).collect()).map_err(told)
             })
             .collect();
         MipChain::from_levels(levels?).map_err(told)
+    }
+
+    fn heights(&mut self) -> Result<Heights, Damage> {
+        let [width, height] = self.value::<[u32; 2]>()?;
+        let depth = self.value()?;
+        let heights = Grid::new(width, height, self.list()?).map_err(told)?;
+        let materials = self.option(|r| Grid::new(width, height, r.list()?).map_err(told))?;
+        let covered = self.option(|r| {
+            let covered = r.list::<u8>()?.into_iter().map(|c| c == 1).collect();
+            Grid::new(width, height, covered).map_err(told)
+        })?;
+        Ok(Heights { map: HeightMap::new(heights, depth).map_err(told)?, materials, covered })
     }
 
     fn normals<S: Space>(&mut self) -> Result<NormalLevels<S>, Damage> {
@@ -172,9 +199,12 @@ pub(super) fn subject_to_bytes(subject: &Subject) -> Vec<u8> {
     w.list(&mesh.uvs().iter().map(Vec2::to_array).collect::<Vec<_>>());
     w.list(mesh.triangles());
     w.option(subject.object.as_ref(), Writer::normals);
-    w.option(subject.tangent.as_ref(), |w, (levels, repeat)| {
-        w.normals(levels);
-        w.value(repeat.to_array());
+    w.option(subject.tangent.as_ref(), |w, tangents| {
+        w.value(u8::from(tangents.heights().is_some()));
+        match tangents.heights() {
+            Some(heights) => w.heights(heights),
+            None => w.normals(tangents.levels()),
+        }
     });
     w.option(subject.indexed.as_ref(), |w, map| {
         w.list(&map.table().normals().iter().map(|n| n.vec().to_array()).collect::<Vec<_>>());
@@ -224,7 +254,12 @@ pub(super) fn subject_from_bytes(bytes: &[u8]) -> Result<Subject, Damage> {
     let mut subject = Subject::plain(mesh);
     subject.name = name;
     subject.object = r.option(Reader::normals)?;
-    subject.tangent = r.option(|r| Ok((r.normals()?, r.value::<[f32; 2]>()?.into())))?;
+    subject.tangent = r.option(|r| {
+        if r.value::<u8>()? == 1 {
+            return Tangents::of_heights(r.heights()?).map_err(told);
+        }
+        Ok(Tangents::of_levels(r.normals()?))
+    })?;
     subject.indexed = r.option(|r| {
         let normals = r.list::<[f32; 3]>()?.into_iter().map(|v| Normal::new_or(v.into(), Normal::Z)).collect();
         let spans = r.list::<[u32; 3]>()?.into_iter();

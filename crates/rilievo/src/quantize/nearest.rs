@@ -79,9 +79,15 @@ impl Nearest {
         for (slot, child) in order.iter_mut().zip(self.tree.children(node)) {
             let c = &self.tree.nodes[child as usize];
             let gap = squared_f64(query.direction, c.center).sqrt() - f64::from(c.radius) * f64::from(1.0 + SLACK);
-            *slot = (gap.max(0.0), child);
+            // Not `max`: what it makes of NaN costs a call where processors have no instruction for it, as in WebAssembly.
+            *slot = (if gap > 0.0 { gap } else { 0.0 }, child);
         }
-        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        // A network of five: this is done a few times for every texel of the smaller levels.
+        for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
+            if order[j].0 < order[i].0 {
+                order.swap(i, j);
+            }
+        }
         for (gap, child) in order {
             // Not `>=`: an equally near entry with a lower index may be inside.
             if child == NONE || gap * gap * (1.0 - 1e-9) > query.distance {
