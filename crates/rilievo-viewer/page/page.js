@@ -68,6 +68,8 @@ function plain(why) {
       if (!made()) return;
       working = false;
       wanted = true;
+    } else if (page.refines() && page.take() !== undefined) {
+      wanted = true;
     }
     if (!ways.length) return;
     const ratio = Math.min(devicePixelRatio, 1.5);
@@ -78,7 +80,7 @@ function plain(why) {
       const bytes = page.draw(width, height);
       [picture.width, picture.height] = [width, height];
       context.putImageData(new ImageData(new Uint8ClampedArray(bytes.buffer), width, height), 0, 0);
-      element("told").value = `drawn by the CPU in ${page.milliseconds().toFixed(1)} ms`;
+      element("told").value = `drawn by the CPU in ${page.milliseconds().toFixed(1)} ms${page.refines() ? ", refining" : ""}`;
     } catch (error) {
       // Once, not at every frame.
       [picture.width, picture.height] = [width, height];

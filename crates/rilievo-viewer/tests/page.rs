@@ -43,7 +43,7 @@ fn wait_for(browser: &mut Browser, what: &str, is_there: impl Fn(&Picture) -> bo
     loop {
         std::thread::sleep(std::time::Duration::from_millis(400));
         let now = seen(browser);
-        if now == last && is_there(&now) {
+        if now == last && is_there(&now) && !words(browser).contains("refining") {
             return now;
         }
         last = now;

@@ -227,6 +227,10 @@ impl Viewer {
             Ok(subject) => {
                 self.made_by = self.recipe.clone();
                 self.show(subject);
+                if let Some(refined) = self.recipe.refined() {
+                    self.recipe = refined;
+                    self.make(context);
+                }
             }
             Err(why) => {
                 self.notes.push(why);
@@ -236,6 +240,11 @@ impl Viewer {
                 }
             }
         }
+    }
+
+    /// Whether what is being made is what is seen already, in more detail.
+    fn refines(&self) -> bool {
+        self.job.is_some() && self.made_by.refined().is_some_and(|refined| refined.is_made_as(&self.recipe))
     }
 
     fn show(&mut self, subject: Subject) {
@@ -444,7 +453,7 @@ impl eframe::App for Viewer {
         egui::CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
         #[cfg(target_arch = "wasm32")]
         self.tell(&context);
-        let stage = self.job.as_ref().map(|job| job.meter().read());
+        let stage = self.job.as_ref().filter(|_| !self.refines()).map(|job| job.meter().read());
         if let Some((stage, share)) = stage {
             self.waiting(&context, &stage, share);
         }

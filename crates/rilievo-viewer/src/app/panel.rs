@@ -207,6 +207,7 @@ impl Viewer {
             let db = if d.psnr_db.is_finite() { format!("{:.1} dB", d.psnr_db) } else { "no difference".to_owned() };
             format!("{db}, {} codes at most", d.max_abs)
         }));
+        figures.extend(self.refines().then(|| "refining".to_owned()));
         figures
     }
 

@@ -16,6 +16,8 @@ use super::{Heights, Sample, Subject, Tangents};
 
 /// Width of the samples' maps.
 const SAMPLE_WIDTH: u32 = 1024;
+/// Width of those that are made first where there is one thread and somebody waits.
+const PREVIEW_WIDTH: u32 = 512;
 /// Width and height of a map that is made of a mesh's own normals.
 const OWN_SIZE: (u32, u32) = (1024, 1024);
 /// The smallest map that is bent onto a mesh, unless the file's is larger.
@@ -91,6 +93,8 @@ pub struct Recipe {
     pub sample: Option<Sample>,
     /// A map: heights, normals, or an indexed one.
     pub map: Option<File>,
+    /// Width of a sample's maps.
+    pub sample_width: u32,
     /// What it is laid on; samples have their own.
     pub surface: Surface,
     /// Entries of the table.
@@ -107,6 +111,7 @@ impl Default for Recipe {
     fn default() -> Self {
         Self {
             sample: Some(Sample::default()),
+            sample_width: SAMPLE_WIDTH,
             map: None,
             surface: Surface::default(),
             entries: 2048,
@@ -114,6 +119,25 @@ impl Default for Recipe {
             depth: 0.05,
             convention: Convention::Gl,
         }
+    }
+}
+
+impl Recipe {
+    /// What is made at first, to be seen soon.
+    pub fn preview(self) -> Self {
+        Self { sample_width: PREVIEW_WIDTH, ..self }
+    }
+
+    /// Whether the same would come of both, for samples.
+    pub(crate) fn is_made_as(&self, other: &Self) -> bool {
+        let key = |r: &Self| (r.sample, r.sample_width, r.entries, r.effort);
+        self.sample.is_some() && key(self) == key(other)
+    }
+
+    /// What is made of a preview once it is seen; nothing of what is no preview.
+    pub fn refined(&self) -> Option<Self> {
+        let is_preview = self.sample.is_some() && self.sample_width < SAMPLE_WIDTH;
+        is_preview.then(|| Self { sample_width: SAMPLE_WIDTH, ..self.clone() })
     }
 }
 
@@ -135,7 +159,7 @@ pub fn make(recipe: &Recipe, progress: &dyn Progress) -> Result<Subject, String>
 
 fn from_sample(recipe: &Recipe, sample: Sample, progress: &dyn Progress) -> Result<Subject, String> {
     progress.begin("drawing the maps", 1);
-    let parts = sample.parts(SAMPLE_WIDTH).map_err(told)?;
+    let parts = sample.parts(recipe.sample_width).map_err(told)?;
     progress.advance(1);
     let mesh = parts.mesh.with_tangents().map_err(told)?;
     let size = parts.height.heights().size();

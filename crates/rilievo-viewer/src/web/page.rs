@@ -28,7 +28,7 @@ pub async fn start(canvas: HtmlCanvasElement, by_cpu: bool, webgl: bool, font: V
             instance_descriptor.backends = eframe::wgpu::Backends::GL;
         }
     }
-    let start = Start { by_cpu, font: Font::new(font), ..Start::default() };
+    let start = Start { by_cpu, recipe: Recipe::default().preview(), font: Font::new(font), ..Start::default() };
     let make: eframe::AppCreator<'static> = Box::new(move |context| Ok(Box::new(Viewer::new(context, start))));
     WebRunner::new().start(canvas, options, make).await
 }

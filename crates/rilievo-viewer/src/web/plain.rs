@@ -26,6 +26,7 @@ pub struct Plain {
     meter: Arc<Meter>,
     made: Made,
     work: Option<Work>,
+    refines: bool,
 }
 
 #[wasm_bindgen]
@@ -44,7 +45,7 @@ impl Plain {
                 lamp: Lamp::default(),
                 colored: true,
             };
-            (Recipe::default(), look)
+            (Recipe::default().preview(), look)
         });
         look.other = None;
         let (meter, made) = Default::default();
@@ -60,6 +61,7 @@ impl Plain {
             meter,
             made,
             work: None,
+            refines: false,
         }
     }
 
@@ -68,6 +70,7 @@ impl Plain {
         // What comes is asked for by `take`.
         let done = Box::new(|| ());
         (self.meter, self.made) = Default::default();
+        self.refines = false;
         self.work = begin(&self.recipe, Arc::clone(&self.meter), Arc::clone(&self.made), done);
     }
 
@@ -95,7 +98,7 @@ impl Plain {
     /// Takes what was made, if it is there, and says what went wrong with it: an empty text if nothing did.
     pub fn take(&mut self) -> Option<String> {
         let made = self.made.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take()?;
-        self.work = None;
+        (self.work, self.refines) = (None, false);
         match made {
             Ok(subject) => {
                 let count = subject.material_count().max(subject.materials.len());
@@ -106,6 +109,11 @@ impl Plain {
                 }
                 self.made_by = self.recipe.clone();
                 self.subject = Some(Arc::new(subject));
+                if let Some(refined) = self.recipe.refined() {
+                    self.recipe = refined;
+                    self.make();
+                    self.refines = true;
+                }
                 Some(String::new())
             }
             Err(why) => {
@@ -113,6 +121,11 @@ impl Plain {
                 Some(why)
             }
         }
+    }
+
+    /// Whether what is seen is being made in more detail.
+    pub fn refines(&self) -> bool {
+        self.refines
     }
 
     /// Moves the eye, in radians.

@@ -141,6 +141,7 @@ pub(super) fn recipe_to_bytes(recipe: &Recipe) -> Vec<u8> {
     };
     let sample = |s: Sample| Sample::ALL.into_iter().position(|x| x == s).unwrap_or(0) as u8;
     w.option(recipe.sample, |w, s| w.value(sample(s)));
+    w.value(recipe.sample_width);
     w.option(recipe.map.as_ref(), file);
     let kind = match &recipe.surface {
         Surface::Plane => 0u8,
@@ -170,6 +171,7 @@ pub(super) fn recipe_from_bytes(bytes: &[u8]) -> Result<Recipe, Damage> {
     let file = |r: &mut Reader<'_>| Ok(File { name: r.text()?, bytes: r.list::<u8>()?.into() });
     Ok(Recipe {
         sample: r.option(|r| Ok(Sample::ALL[usize::from(r.value::<u8>()?).min(Sample::ALL.len() - 1)]))?,
+        sample_width: r.value()?,
         map: r.option(file)?,
         surface: match r.value::<u8>()? {
             1 => Surface::Sphere,
@@ -339,6 +341,7 @@ mod tests {
         let file = File { name: "größe.png".into(), bytes: vec![1, 2, 3].into() };
         let recipe = Recipe {
             sample: None,
+            sample_width: 77,
             map: Some(file.clone()),
             surface: Surface::Mesh(File { name: "m.obj".into(), ..file }),
             entries: 77,

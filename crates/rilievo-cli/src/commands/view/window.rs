@@ -152,7 +152,7 @@ pub(crate) fn run(args: Args) -> Result<Outcome> {
         effort: args.effort.into(),
         depth: args.depth,
         convention: args.convention.into(),
-        map: None,
+        ..Recipe::default()
     };
     open(start)
         .map_err(|why| anyhow!("no window can be opened: {why}; `rilievo render` makes pictures without one"))?;
