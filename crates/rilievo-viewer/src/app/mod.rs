@@ -19,8 +19,8 @@ use web_time::Instant;
 use self::files::Inbox;
 use self::pane::Pane;
 use crate::job::Job;
-use crate::look::{Finish, Lamp, Look, Orbit, Way};
-use crate::subject::{File, Recipe, Subject, Surface};
+use crate::look::{Lamp, Look, Orbit, Way};
+use crate::subject::{File, Recipe, Subject};
 
 /// Seconds without a change after which two pictures are compared.
 const SETTLED: f32 = 0.2;
@@ -188,20 +188,10 @@ impl Viewer {
             changed: Instant::now(),
         };
         for file in start.files {
-            viewer.take_in(file);
+            viewer.recipe.take_in(file);
         }
         viewer.make(&context.egui_ctx);
         viewer
-    }
-
-    /// A file becomes the mesh or the map.
-    fn take_in(&mut self, file: File) {
-        if file.is_mesh() {
-            self.recipe.surface = Surface::Mesh(file);
-        } else {
-            self.recipe.map = Some(file);
-        }
-        self.recipe.sample = None;
     }
 
     /// Begins to make what the recipe says.
@@ -215,7 +205,7 @@ impl Viewer {
         if !arrived.is_empty() {
             for file in arrived {
                 match file {
-                    Ok(file) => self.take_in(file),
+                    Ok(file) => self.recipe.take_in(file),
                     Err(why) => self.notes.push(why),
                 }
             }
@@ -252,10 +242,7 @@ impl Viewer {
         let same_kind = self.subject.as_ref().is_some_and(|s| s.name == subject.name);
         // What the user made of the materials stays when the same thing is made anew.
         if !same_kind || self.look.finishes.len() < subject.material_count() {
-            let default = subject.materials.first().cloned().unwrap_or_default();
-            let count = subject.material_count().max(subject.materials.len());
-            let material = |i: usize| Finish::of(subject.materials.get(i).unwrap_or(&default));
-            self.look.finishes = (0..count).map(material).collect();
+            self.look.finishes = subject.finishes();
             self.look.orbit = Orbit::default();
         }
         if subject.can(self.look.way).is_err() {

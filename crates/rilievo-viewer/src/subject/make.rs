@@ -123,6 +123,28 @@ impl Default for Recipe {
 }
 
 impl Recipe {
+    /// A file becomes the mesh or the map.
+    pub(crate) fn take_in(&mut self, file: File) {
+        if file.is_mesh() {
+            self.surface = Surface::Mesh(file);
+        } else {
+            self.map = Some(file);
+        }
+        self.sample = None;
+    }
+
+    /// How a map is quantised.
+    fn options<'a>(&self, materials: Option<&'a MaterialMap>, covered: Option<&'a Grid<bool>>) -> Options<'a> {
+        Options {
+            entries: self.entries,
+            effort: self.effort,
+            materials,
+            covered,
+            mip_levels: true,
+            ..Options::default()
+        }
+    }
+
     /// What is made at first, to be seen soon.
     pub fn preview(self) -> Self {
         Self { sample_width: PREVIEW_WIDTH, ..self }
@@ -245,14 +267,7 @@ fn lie_flat(
     notes: Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Subject, String> {
-    let options = Options {
-        entries: recipe.entries,
-        effort: recipe.effort,
-        covered: covered.as_ref(),
-        mip_levels: true,
-        ..Options::default()
-    };
-    let quantized = quantize(&normals, &options, progress).map_err(told)?;
+    let quantized = quantize(&normals, &recipe.options(None, covered.as_ref()), progress).map_err(told)?;
     let tangents = match heights {
         Some(map) => Tangents::of_heights(Heights { map, materials: None, covered }),
         None => normal_levels(normals, None, covered.as_ref()).map(Tangents::of_levels),
@@ -333,14 +348,7 @@ fn finish(
             bent.overlaps
         ));
     }
-    let options = Options {
-        entries: recipe.entries,
-        effort: recipe.effort,
-        materials: kinds.as_ref(),
-        covered: Some(&bent.covered),
-        mip_levels: true,
-        ..Options::default()
-    };
+    let options = recipe.options(kinds.as_ref(), Some(&bent.covered));
     let normals: &NormalMap<ObjectSpace> = &bent.normals;
     let quantized = quantize(normals, &options, progress).map_err(told)?;
     let levels = normal_levels(bent.normals, kinds, Some(&bent.covered)).map_err(told)?;
@@ -350,4 +358,26 @@ fn finish(
     subject.error = Some(quantized.error);
     subject.notes = notes;
     Ok(subject)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rilievo::progress::Silent;
+
+    #[test]
+    fn a_flat_sheet_needs_no_bending() {
+        let wave = |v: u32| (v as f32 / 640.0 * 25.0).sin();
+        let heights = Grid::from_fn(640, 512, |x, y| 0.5 + 0.25 * (wave(x) + wave(y) * wave(x))).unwrap();
+        let height = HeightMap::new(heights, 0.05).unwrap();
+        let size = height.heights().size();
+        let mesh = Surface::Plane.mesh(size, &mut Vec::new()).unwrap();
+        let frame = flat_frame(&Recipe::default(), &mesh).unwrap();
+        let bent = bend_heights(&mesh, &height, None, size, &Silent).unwrap();
+        assert!(bent.overlaps == 0 && bent.covered.texels().iter().all(|&c| c));
+        let flat = to_normals(&height, Filter::Plane4, Edges::Wrap).map(|&n| frame.to_object(n));
+        let apart = flat.texels().iter().zip(bent.normals.texels()).map(|(a, b)| a.angle_to(*b));
+        let most = apart.fold(0.0, f64::max);
+        assert!(most < 1e-3, "{most} rad");
+    }
 }

@@ -23,7 +23,7 @@ pub use sample::Sample;
 pub(crate) use tangents::Heights;
 pub use tangents::Tangents;
 
-use crate::look::Way;
+use crate::look::{Finish, Way};
 
 /// A mesh with its maps. Made by [`make`], and not changed afterwards.
 pub struct Subject {
@@ -148,6 +148,13 @@ impl Subject {
         drawn.edges = self.edges;
         drawn.base_color = self.base_color.as_ref().map(|(levels, repeat)| BaseColor { levels, repeat: *repeat });
         drawn
+    }
+
+    /// What every material that the maps name is made of at first.
+    pub(crate) fn finishes(&self) -> Vec<Finish> {
+        let default = self.materials.first().cloned().unwrap_or_default();
+        let count = self.material_count().max(self.materials.len());
+        (0..count).map(|i| Finish::of(self.materials.get(i).unwrap_or(&default))).collect()
     }
 
     /// How many materials the maps name.

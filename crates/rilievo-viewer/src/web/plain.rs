@@ -9,8 +9,8 @@ use super::page::shown;
 use super::{Work, begin};
 use crate::canvas::{CpuSide, Set};
 use crate::job::{Made, Meter};
-use crate::look::{Finish, Lamp, Look, Orbit, Way};
-use crate::subject::{File, Recipe, Subject, Surface};
+use crate::look::{Lamp, Look, Orbit, Way};
+use crate::subject::{File, Recipe, Subject};
 
 /// One picture and what it depends on.
 #[wasm_bindgen]
@@ -76,13 +76,7 @@ impl Plain {
 
     /// Takes in a file; `make` comes next.
     pub fn open(&mut self, name: String, bytes: Vec<u8>) {
-        let file = File { name, bytes: bytes.into() };
-        if file.is_mesh() {
-            self.recipe.surface = Surface::Mesh(file);
-        } else {
-            self.recipe.map = Some(file);
-        }
-        self.recipe.sample = None;
+        self.recipe.take_in(File { name, bytes: bytes.into() });
     }
 
     /// The stage of the work.
@@ -101,11 +95,9 @@ impl Plain {
         (self.work, self.refines) = (None, false);
         match made {
             Ok(subject) => {
-                let count = subject.material_count().max(subject.materials.len());
-                let default = subject.materials.first().cloned().unwrap_or_default();
-                let finish = |i: usize| Finish::of(subject.materials.get(i).unwrap_or(&default));
-                if self.look.finishes.len() != count {
-                    self.look.finishes = (0..count).map(finish).collect();
+                let finishes = subject.finishes();
+                if self.look.finishes.len() != finishes.len() {
+                    self.look.finishes = finishes;
                 }
                 self.made_by = self.recipe.clone();
                 self.subject = Some(Arc::new(subject));
