@@ -1,6 +1,7 @@
 //! Linear light and its one encoding, sRGB.
 
 use std::ops::{Add, AddAssign, Mul};
+use std::sync::LazyLock;
 
 use bytemuck::{Pod, Zeroable};
 
@@ -36,7 +37,9 @@ impl LinearRgb {
 
     /// From an 8-bit sRGB colour.
     pub fn from_srgb(c: [u8; 3]) -> Self {
-        let [r, g, b] = c.map(|v| srgb_decode(f32::from(v) / 255.0));
+        // There are few codes, and many pixels.
+        static DECODED: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|v| srgb_decode(v as f32 / 255.0)));
+        let [r, g, b] = c.map(|v| DECODED[usize::from(v)]);
         Self { r, g, b }
     }
 

@@ -25,6 +25,7 @@ pub mod light;
 pub mod measure;
 pub mod mip;
 pub mod normal;
+mod order;
 pub mod par;
 pub mod polar;
 pub mod pose;

@@ -1,6 +1,12 @@
 //! The one place that knows whether rayon is there.
 //!
 //! Work is cut into the same pieces either way, so results do not depend on the feature or on the thread count.
+//!
+//! Without rayon each piece is a call of a function of its own, and so it should be wherever a loop goes over all texels: an
+//! engine of WebAssembly begins with code that was compiled in a hurry, and comes to the good one at the next call only.
+
+#[cfg(not(feature = "rayon"))]
+use std::ops::Range;
 
 /// Calls `f(row_index, row)` for each `width`-long row of `data`.
 #[cfg(feature = "rayon")]
@@ -12,7 +18,11 @@ pub fn for_each_row<T: Send>(data: &mut [T], width: usize, f: impl Fn(usize, &mu
 /// Calls `f(row_index, row)` for each `width`-long row of `data`.
 #[cfg(not(feature = "rayon"))]
 pub fn for_each_row<T: Send>(data: &mut [T], width: usize, f: impl Fn(usize, &mut [T]) + Sync + Send) {
-    data.chunks_mut(width).enumerate().for_each(|(y, row)| f(y, row));
+    #[inline(never)]
+    fn one<T>(y: usize, row: &mut [T], f: &impl Fn(usize, &mut [T])) {
+        f(y, row);
+    }
+    data.chunks_mut(width).enumerate().for_each(|(y, row)| one(y, row, &f));
 }
 
 /// `f(0), f(1) … f(n − 1)`, in that order.
@@ -25,7 +35,14 @@ pub fn map_range<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec
 /// `f(0), f(1) … f(n − 1)`, in that order.
 #[cfg(not(feature = "rayon"))]
 pub fn map_range<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
-    (0..n).map(f).collect()
+    #[inline(never)]
+    fn some<T>(all: &mut Vec<T>, run: Range<usize>, f: &impl Fn(usize) -> T) {
+        all.extend(run.map(f));
+    }
+    let mut all = Vec::with_capacity(n);
+    let run = n.div_ceil(64).max(1);
+    (0..n).step_by(run).for_each(|first| some(&mut all, first..n.min(first + run), &f));
+    all
 }
 
 /// Sorts values whose equals cannot be told apart, so that the result does not depend on the method.

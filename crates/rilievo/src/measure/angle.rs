@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::normal::{NormalMap, Space};
+use crate::order::greater;
 use crate::par;
 
 /// Statistics of the angles between two normal maps, in radians.
@@ -91,7 +92,7 @@ pub(crate) fn weighted_angle_stats(angles: &[(f64, u64)]) -> AngleStats {
     for &(angle, times) in angles {
         s.sum += angle * times as f64;
         s.sum_of_squares += angle * angle * times as f64;
-        s.max = s.max.max(angle);
+        s.max = greater(angle, s.max);
         s.count += times;
         s.histogram[key(angle) >> 16] += times;
     }
@@ -174,7 +175,7 @@ impl<S: Space> Compared<'_, S> {
         self.for_each_angle(band, bands, |angle| {
             s.sum += angle;
             s.sum_of_squares += angle * angle;
-            s.max = s.max.max(angle);
+            s.max = greater(angle, s.max);
             s.count += 1;
             s.histogram[key(angle) >> 16] += 1;
         });

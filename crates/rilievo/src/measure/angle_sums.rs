@@ -1,6 +1,7 @@
 //! Statistics of more angles than one likes to keep.
 
 use super::angle::{AngleStats, key};
+use crate::order::greater;
 
 /// Statistics of angles that are seen once each, in order, and not kept: only the largest hundredth is.
 #[derive(Debug)]
@@ -27,7 +28,7 @@ impl AngleSums {
     pub(crate) fn add(&mut self, angle: f64) {
         self.sum += angle;
         self.sum_of_squares += angle * angle;
-        self.max = self.max.max(angle);
+        self.max = greater(angle, self.max);
         self.count += 1;
         let key = key(angle) as u32;
         if key >= self.floor {

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::grid::Grid;
 use crate::indexed::MaterialMap;
 use crate::mip::{MipChain, next_size, span};
-use crate::normal::{Normal, NormalMap, Space};
+use crate::normal::{Bare, Normal, NormalMap, Space};
 use crate::par;
 
 /// A normal map with its mip levels, and the materials of the same levels.
@@ -24,19 +24,19 @@ const BAND_ROWS: usize = 64;
 
 /// One texel of a level.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Texel<S> {
+pub(crate) struct Texel {
     /// Sum of the full-size normals it stands for, of its material only: not normalised between levels, so that each
     /// level is the mean of the map and not of the level above.
     sum: [f32; 3],
     /// Its direction.
-    pub(crate) normal: Normal<S>,
+    pub(crate) normal: Bare,
     pub(crate) material: u8,
     covered: bool,
 }
 
-impl<S: Space> Texel<S> {
+impl Texel {
     /// A texel of the full-size map.
-    pub(crate) fn new(normal: Normal<S>, material: u8, covered: bool) -> Self {
+    pub(crate) fn new(normal: Bare, material: u8, covered: bool) -> Self {
         Self { sum: normal.vec().to_array(), normal, material, covered }
     }
 }
@@ -59,25 +59,11 @@ pub fn normal_levels<S: Space>(
 ) -> Result<NormalLevels<S>> {
     materials.as_ref().map_or(Ok(()), |m| map.expect_same_size("the material map", m))?;
     covered.map_or(Ok(()), |c| map.expect_same_size("the coverage", c))?;
-    let mut cascade = Cascade::new(map.size());
-    let sizes = cascade.sizes();
-    let mut found: Vec<(Vec<Normal<S>>, Vec<u8>)> = vec![Default::default(); sizes.len()];
-    let (width, texels) = (map.width() as usize, map.texels());
-    for first in (0..texels.len()).step_by(width * BAND_ROWS) {
-        let band = first..texels.len().min(first + width * BAND_ROWS);
-        let texel = |t: usize| {
-            let material = materials.as_ref().map_or(0, |m| m.texels()[t]);
-            Texel::new(texels[t], material, covered.is_none_or(|c| c.texels()[t]))
-        };
-        cascade.push(band.map(texel), |level, texels| {
-            let (normals, materials) = &mut found[level];
-            normals.extend(texels.iter().map(|t| t.normal));
-            materials.extend(texels.iter().map(|t| t.material));
-        });
-    }
+    let bare = Normal::relabel_all(map.texels());
+    let found = smaller(map.size(), bare, materials.as_ref().map(Grid::texels), covered.map(Grid::texels));
     let (mut normal_maps, mut material_maps) = (vec![map], Vec::new());
-    for ((width, height), (normals, materials)) in sizes.into_iter().zip(found) {
-        normal_maps.push(Grid::new(width, height, normals)?);
+    for ((width, height), normals, materials) in found {
+        normal_maps.push(Grid::new(width, height, Normal::relabel_vec(normals))?);
         material_maps.push(Grid::new(width, height, materials)?);
     }
     let materials = materials.map(|base| {
@@ -87,28 +73,50 @@ pub fn normal_levels<S: Space>(
     Ok(NormalLevels { normals: MipChain::from_levels(normal_maps)?, materials: materials.transpose()? })
 }
 
+/// Sizes, normals and materials of the smaller levels.
+fn smaller(
+    size: (u32, u32),
+    texels: &[Bare],
+    materials: Option<&[u8]>,
+    covered: Option<&[bool]>,
+) -> Vec<((u32, u32), Vec<Bare>, Vec<u8>)> {
+    let mut cascade = Cascade::new(size);
+    let mut found: Vec<_> = cascade.sizes().into_iter().map(|size| (size, Vec::new(), Vec::new())).collect();
+    let rows = size.0 as usize * BAND_ROWS;
+    for first in (0..texels.len()).step_by(rows) {
+        let band = first..texels.len().min(first + rows);
+        let texel = |t: usize| Texel::new(texels[t], materials.map_or(0, |m| m[t]), covered.is_none_or(|c| c[t]));
+        cascade.push(band.map(texel), |level, texels| {
+            let (_, normals, materials) = &mut found[level];
+            normals.extend(texels.iter().map(|t| t.normal));
+            materials.extend(texels.iter().map(|t| t.material));
+        });
+    }
+    found
+}
+
 /// All levels below a map whose rows come one after the other, from the top. A few rows of each level are kept.
 #[derive(Debug)]
-pub(crate) struct Cascade<S> {
-    steps: Vec<Halving<S>>,
+pub(crate) struct Cascade {
+    steps: Vec<Halving>,
 }
 
 /// One level on its way to the next.
 #[derive(Debug)]
-struct Halving<S> {
+struct Halving {
     /// Size of the level that comes in.
     above: (u32, u32),
     /// Size of the level that goes out.
     size: (u32, u32),
     /// Rows that came in and are not used up.
-    pending: Vec<Texel<S>>,
+    pending: Vec<Texel>,
     /// The number of the first of them.
     first: u32,
     /// How many rows went out.
     done: u32,
 }
 
-impl<S: Space> Cascade<S> {
+impl Cascade {
     /// For a map of this size.
     pub(crate) fn new(size: (u32, u32)) -> Self {
         let mut steps = Vec::new();
@@ -127,7 +135,7 @@ impl<S: Space> Cascade<S> {
 
     /// Takes the next whole rows of the map, and hands on the rows of each smaller level that are known with them. The
     /// largest of the smaller levels is number 0.
-    pub(crate) fn push(&mut self, rows: impl IntoIterator<Item = Texel<S>>, mut emit: impl FnMut(usize, &[Texel<S>])) {
+    pub(crate) fn push(&mut self, rows: impl IntoIterator<Item = Texel>, mut emit: impl FnMut(usize, &[Texel])) {
         let Some(first) = self.steps.first_mut() else { return };
         first.pending.extend(rows);
         for level in 0..self.steps.len() {
@@ -143,9 +151,9 @@ impl<S: Space> Cascade<S> {
     }
 }
 
-impl<S: Space> Halving<S> {
+impl Halving {
     /// The rows whose blocks are complete.
-    fn advance(&mut self) -> Vec<Texel<S>> {
+    fn advance(&mut self) -> Vec<Texel> {
         let ((above_width, above_height), (width, height)) = (self.above, self.size);
         let came = self.first + (self.pending.len() / above_width as usize) as u32;
         let ready = (self.done..height).take_while(|&y| span(y, above_height).end <= came).count();
@@ -170,19 +178,28 @@ impl<S: Space> Halving<S> {
 }
 
 /// One texel from the block above it, which has at least one.
-fn reduce<S: Space>(block: &[Texel<S>]) -> Texel<S> {
+fn reduce(block: &[Texel]) -> Texel {
+    let first = block[0];
+    // Almost everywhere there is nothing to vote on.
+    if block.iter().all(|t| t.material == first.material && t.covered == first.covered) {
+        return mean(block.iter(), first);
+    }
     let covered = block.iter().any(|t| t.covered);
     let counted = || block.iter().filter(|t| t.covered == covered);
     let votes = |material: u8| counted().filter(|t| t.material == material).count();
     let winner = counted().map(|t| (votes(t.material), std::cmp::Reverse(t.material))).max();
     let material = winner.map_or(0, |(_, std::cmp::Reverse(material))| material);
     let members = || counted().filter(|t| t.material == material);
-    let sum = members().fold([0.0f32; 3], |a, t| [0, 1, 2].map(|k| a[k] + t.sum[k]));
+    mean(members(), *members().next().unwrap_or(&first))
+}
+
+/// The mean of texels of one material; `first` is the first of them.
+fn mean<'a>(members: impl Iterator<Item = &'a Texel>, first: Texel) -> Texel {
+    let sum = members.fold([0.0f32; 3], |a, t| [0, 1, 2].map(|k| a[k] + t.sum[k]));
     // Opposite normals may leave no direction: then the first texel of the block speaks for it.
-    let first = members().next().unwrap_or(&block[0]).normal;
     let length = sum.iter().map(|c| c * c).sum::<f32>().sqrt();
-    let normal = if length > 1e-6 { Normal::new_or(sum.into(), first) } else { first };
-    Texel { sum, normal, material, covered }
+    let normal = if length > 1e-6 { Normal::new_or(sum.into(), first.normal) } else { first.normal };
+    Texel { sum, normal, ..first }
 }
 
 #[cfg(test)]
@@ -238,7 +255,7 @@ mod tests {
                 Texel::new(v, ((x + y) % 3) as u8, (x * 5 + y * 3) % 7 > 1)
             };
             let base = Grid::from_fn(width, height, texel).unwrap();
-            let blocks = |block: &[&Texel<Object>]| reduce(&block.iter().map(|&&t| t).collect::<Vec<_>>());
+            let blocks = |block: &[&Texel]| reduce(&block.iter().map(|&&t| t).collect::<Vec<_>>());
             let expected = MipChain::build(base.clone(), blocks);
             for band in [1, 2, 3, 7, 64] {
                 let mut cascade = Cascade::new((width, height));
@@ -246,8 +263,8 @@ mod tests {
                 for rows in base.texels().chunks(band * width as usize) {
                     cascade.push(rows.iter().copied(), |level, texels| found[level].extend_from_slice(texels));
                 }
-                let parts = |t: &Texel<Object>| (t.sum, t.normal, t.material, t.covered);
-                let all = |texels: &[Texel<Object>]| texels.iter().map(parts).collect::<Vec<_>>();
+                let parts = |t: &Texel| (t.sum, t.normal, t.material, t.covered);
+                let all = |texels: &[Texel]| texels.iter().map(parts).collect::<Vec<_>>();
                 assert_eq!(found.len() + 1, expected.levels().len());
                 for (found, level) in found.iter().zip(&expected.levels()[1..]) {
                     assert_eq!(all(found), all(level.texels()), "{width}×{height} in bands of {band}");

@@ -8,6 +8,7 @@ mod spread;
 
 use std::marker::PhantomData;
 
+use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
 use glam::Vec3;
 
 pub(crate) use blue_noise::BlueNoise;
@@ -18,6 +19,7 @@ pub use levels::{NormalLevels, normal_levels};
 pub use spread::spread_normals;
 
 use crate::grid::Grid;
+use crate::order::greater;
 
 /// A coordinate space that normals and directions can live in.
 pub trait Space: sealed::Sealed + Copy + std::fmt::Debug + PartialEq + Send + Sync + 'static {
@@ -56,28 +58,43 @@ space!(
 
 /// A unit vector in space `S`: a surface normal, or a direction to a light or an eye.
 #[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq, TransparentWrapper)]
+#[transparent(Unit)]
+pub struct Normal<S>(Unit, PhantomData<S>);
+
+/// A unit vector; private, so that nobody makes normals of vectors that are none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Normal<S>(Vec3, PhantomData<S>);
+struct Unit(Vec3);
+
+/// A normal whose space does not matter.
+///
+/// A space is a label that no code depends on. Long work is done without it, so that there is one code for it: compiled
+/// with this crate, and not for each label in every crate that asks for it.
+pub(crate) type Bare = Normal<Object>;
 
 impl<S: Space> Normal<S> {
     /// +X.
-    pub const X: Self = Self(Vec3::X, PhantomData);
+    pub const X: Self = Self::of(Vec3::X);
     /// +Y.
-    pub const Y: Self = Self(Vec3::Y, PhantomData);
+    pub const Y: Self = Self::of(Vec3::Y);
     /// +Z: in tangent space, the undisturbed surface.
-    pub const Z: Self = Self(Vec3::Z, PhantomData);
+    pub const Z: Self = Self::of(Vec3::Z);
+
+    const fn of(unit: Vec3) -> Self {
+        Self(Unit(unit), PhantomData)
+    }
 
     /// The direction of `v`; `None` if it has none (zero, NaN or infinite).
     ///
     /// Scaled by the largest component first, so that the tiniest and the largest vectors keep their direction.
     pub fn new(v: Vec3) -> Option<Self> {
-        let largest = v.abs().max_element();
+        let largest = greater(greater(v.x.abs(), v.y.abs()), v.z.abs());
         if !(largest > 0.0 && v.is_finite()) {
             return None;
         }
         let scaled = v / largest;
         // Division, not multiplication by a reciprocal: one rounding less, and the same bits everywhere.
-        Some(Self(scaled / scaled.length(), PhantomData))
+        Some(Self::of(scaled / scaled.length()))
     }
 
     /// The direction of `v`, or `fallback` if it has none.
@@ -88,25 +105,35 @@ impl<S: Space> Normal<S> {
     /// Takes back a vector that came out of a normal: the same bits, where [`Normal::new`] may change the last one.
     pub(crate) fn from_unit(v: Vec3) -> Self {
         debug_assert!((v.length() - 1.0).abs() < 1e-5);
-        Self(v, PhantomData)
+        Self::of(v)
     }
 
     /// The vector, of unit length within a few ulps.
     pub fn vec(self) -> Vec3 {
-        self.0
+        self.0.0
     }
 
     /// Angle to another direction in the same space, in radians, accurate for small angles too.
     ///
     /// 2·asin(chord / 2) in f64: acos of a dot product loses everything below 0.02°.
     pub fn angle_to(self, other: Self) -> f64 {
-        let chord = (self.0.as_dvec3() - other.0.as_dvec3()).length();
+        let chord = (self.vec().as_dvec3() - other.vec().as_dvec3()).length();
         2.0 * (chord * 0.5).min(1.0).asin()
     }
 
     /// The same numbers, declared to be in another space.
     pub fn relabel<T: Space>(self) -> Normal<T> {
         Normal(self.0, PhantomData)
+    }
+
+    /// [`Self::relabel`] for many, which stay where they are.
+    pub(crate) fn relabel_all<T: Space>(normals: &[Self]) -> &[Normal<T>] {
+        Normal::wrap_slice(Self::peel_slice(normals))
+    }
+
+    /// [`Self::relabel_all`] for those that are owned.
+    pub(crate) fn relabel_vec<T: Space>(normals: Vec<Self>) -> Vec<Normal<T>> {
+        Normal::wrap_vec(Self::peel_vec(normals))
     }
 }
 
@@ -118,7 +145,7 @@ impl Normal<Tangent> {
     pub(crate) fn from_slopes(dx: f32, dy: f32) -> Self {
         let length = (dx * dx + dy * dy + 1.0).sqrt();
         // 0 − x instead of −x: flat ground has no negative zeros.
-        Self(Vec3::new((0.0 - dx) / length, (0.0 - dy) / length, 1.0 / length), PhantomData)
+        Self::of(Vec3::new((0.0 - dx) / length, (0.0 - dy) / length, 1.0 / length))
     }
 }
 
@@ -140,7 +167,7 @@ impl Convention {
     pub fn apply<S: Space>(self, n: Normal<S>) -> Normal<S> {
         match self {
             Self::Gl => n,
-            Self::Dx => Normal(Vec3::new(n.0.x, -n.0.y, n.0.z), PhantomData),
+            Self::Dx => Normal::of(Vec3::new(n.vec().x, -n.vec().y, n.vec().z)),
         }
     }
 }

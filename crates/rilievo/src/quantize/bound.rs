@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 use super::points::Points;
+use crate::order::{greater, lesser};
 
 /// Intervals of the quadrature; the integrand is smooth. `triangles_cover_the_sphere` holds its error below 10⁻⁹.
 const INTERVALS: u32 = 256;
@@ -69,7 +70,7 @@ pub(super) fn zador_rms_rad(points: &Points, entries: usize) -> f64 {
 /// The sphere unfolded to the unit square so that areas keep their proportion (Clarberg 2008, "Fast equal-area mapping of
 /// the (hemi)sphere using SIMD").
 fn equal_area([x, y, z]: [f64; 3]) -> [f64; 2] {
-    let radius = (1.0 - z.abs()).max(0.0).sqrt();
+    let radius = greater(1.0 - z.abs(), 0.0).sqrt();
     let v = quarter_turns(y.abs(), x.abs()) * radius;
     let (u, v) = if z < 0.0 { (1.0 - v, 1.0 - (radius - v)) } else { (radius - v, v) };
     [(u.copysign(x) + 1.0) * 0.5, (v.copysign(y) + 1.0) * 0.5]
@@ -89,7 +90,7 @@ fn quarter_turns(y: f64, x: f64) -> f64 {
         -0.016_165_736_7,
         0.002_866_225_7,
     ];
-    let tangent = x.min(y) / x.max(y).max(f64::MIN_POSITIVE);
+    let tangent = lesser(x, y) / greater(greater(x, y), f64::MIN_POSITIVE);
     let t2 = tangent * tangent;
     let turn = EVEN.iter().rev().fold(0.0, |sum, c| sum * t2 + c) * tangent * FRAC_2_PI;
     if y > x { 1.0 - turn } else { turn }

@@ -17,6 +17,7 @@ use super::entries::{Entries, squared_f64};
 use super::points::{LANES, Points};
 use super::tree::{SLACK, add, squared};
 use super::vicinity::{List, TINY, Vicinities, upper};
+use crate::order::greater;
 use crate::par;
 
 /// Cells whose sums are found together.
@@ -180,7 +181,7 @@ impl Cells {
         let Some(table) = &self.table else {
             return par::map_range(entries.len(), |e| {
                 let center = entries.directions[e];
-                self.members(e).map(|(p, _)| squared(p, center)).fold(0.0, f32::max).sqrt()
+                self.members(e).map(|(p, _)| squared(p, center)).fold(0.0, greater).sqrt()
             });
         };
         let both = table.directions.iter().zip(&entries.directions).zip(&self.radii);

@@ -6,18 +6,19 @@ use super::mip::Levels;
 use super::nearest::Nearest;
 use super::{Dither, Options};
 use crate::measure::{AngleStats, AngleSums, angle_of_chord};
-use crate::{IndexMap, MipChain, Normal, Space, par};
+use crate::normal::Bare;
+use crate::{IndexMap, MipChain, par};
 
 /// Whole rows of a map.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rows<'a, S> {
+pub(super) struct Rows<'a> {
     /// The number of their first texel in the map.
     pub first: usize,
-    pub normals: &'a [Normal<S>],
+    pub normals: &'a [Bare],
     pub covered: Option<&'a [bool]>,
 }
 
-impl<S: Space> Rows<'_, S> {
+impl Rows<'_> {
     /// Whether their texel `i` counts.
     pub(super) fn is_covered(&self, i: usize) -> bool {
         self.covered.is_none_or(|c| c[i])
@@ -30,11 +31,11 @@ impl<S: Space> Rows<'_, S> {
 }
 
 /// Finishes a map whose rows come from the top.
-pub(super) struct Indexer<'a, S> {
+pub(super) struct Indexer<'a> {
     base: IndexMap,
     entries: &'a Entries,
-    ditherer: Ditherer<'a, S>,
-    levels: Option<Levels<'a, S>>,
+    ditherer: Ditherer<'a>,
+    levels: Option<Levels<'a>>,
     error: Option<AngleSums>,
 }
 
@@ -46,7 +47,7 @@ pub(super) struct Indexed {
     pub level_errors: Vec<AngleStats>,
 }
 
-impl<'a, S: Space> Indexer<'a, S> {
+impl<'a> Indexer<'a> {
     /// Goes on from a map of nearest entries, or from one that gets them as rows come ([`Indexer::slots`]). The error of
     /// texels that are not dithered is only found if `each_error`.
     pub(super) fn new(
@@ -78,7 +79,7 @@ impl<'a, S: Space> Indexer<'a, S> {
     }
 
     /// Takes the next rows, whose texels have their nearest entries.
-    pub(super) fn push(&mut self, rows: &Rows<'_, S>) {
+    pub(super) fn push(&mut self, rows: &Rows<'_>) {
         if let Some(levels) = &mut self.levels {
             levels.push(rows, &self.base.texels()[rows.first..][..rows.normals.len()]);
         }

@@ -7,13 +7,13 @@ use super::entries::{Entries, squared_f64};
 use super::index::Rows;
 use super::nearest::Nearest;
 use crate::measure::{AngleStats, AngleSums, angle_of_chord};
-use crate::normal::{Cascade, Texel};
-use crate::{Grid, IndexMap, Normal, Space, par};
+use crate::normal::{Bare, Cascade, Texel};
+use crate::{Grid, IndexMap, par};
 
 /// All levels below the full size, made while its rows come.
 #[derive(Debug)]
-pub(super) struct Levels<'a, S> {
-    cascade: Cascade<S>,
+pub(super) struct Levels<'a> {
+    cascade: Cascade,
     entries: &'a Entries,
     nearest: &'a Nearest,
     /// The group (material) of each entry.
@@ -29,7 +29,7 @@ struct Level {
     error: AngleSums,
 }
 
-impl<'a, S: Space> Levels<'a, S> {
+impl<'a> Levels<'a> {
     pub(super) fn new(size: (u32, u32), entries: &'a Entries, nearest: &'a Nearest) -> Self {
         let cascade = Cascade::new(size);
         let level = |size: (u32, u32)| {
@@ -41,9 +41,9 @@ impl<'a, S: Space> Levels<'a, S> {
     }
 
     /// Takes the next rows, and the entries of their texels: these tell the materials.
-    pub(super) fn push(&mut self, rows: &Rows<'_, S>, indices: &[u16]) {
+    pub(super) fn push(&mut self, rows: &Rows<'_>, indices: &[u16]) {
         let Self { cascade, entries, nearest, groups, levels } = self;
-        let texel = |(i, (&normal, &entry)): (usize, (&Normal<S>, &u16))| {
+        let texel = |(i, (&normal, &entry)): (usize, (&Bare, &u16))| {
             Texel::new(normal, groups[usize::from(entry)], rows.is_covered(i))
         };
         cascade.push(rows.normals.iter().zip(indices).enumerate().map(texel), |level, texels| {
@@ -51,16 +51,11 @@ impl<'a, S: Space> Levels<'a, S> {
             let mut found = vec![(0, 0.0); texels.len()];
             let width = size.0 as usize;
             par::for_each_row(&mut found, width, |row, found| {
-                let mut last: Option<(u8, u32)> = None;
                 for (slot, texel) in found.iter_mut().zip(&texels[row * width..]) {
-                    // The neighbour's entry is a good first guess, if it is of the same material.
-                    let hint = last.filter(|last| last.0 == texel.material);
-                    let hint = hint.map(|(_, entry)| (entry, entries.directions[entry as usize]));
                     let direction = texel.normal.vec().to_array().map(f64::from);
-                    let entry = nearest.find(usize::from(texel.material), direction, hint);
+                    let entry = nearest.find(usize::from(texel.material), direction);
                     let distance2 = squared_f64(direction, entries.directions[entry as usize]);
                     *slot = (entry as u16, angle_of_chord(distance2));
-                    last = Some((texel.material, entry));
                 }
             });
             indices.extend(found.iter().map(|f| f.0));

@@ -9,6 +9,7 @@
 //!   do not depend on the machine, and only + − × ÷ √ in a fixed order decide anything.
 
 mod bound;
+mod candidates;
 mod cells;
 mod coarse;
 mod colors;
@@ -21,6 +22,7 @@ mod mip;
 mod nearest;
 mod octahedral;
 mod points;
+mod radix;
 mod round;
 mod rows;
 mod search;
@@ -45,9 +47,10 @@ use self::index::{Indexer, Rows};
 use self::nearest::Nearest;
 use self::points::{Gathered, NO_POINT, gather};
 use self::table::{Made, error_of, gutter};
+use self::texels::Source;
 use crate::indexed::{IndexMap, MAX_ENTRIES, MaterialMap, QuantizedMap};
 use crate::measure::AngleStats;
-use crate::{Error, Grid, Progress, Result, Space, par};
+use crate::{Error, Grid, Normal, Object, Progress, Result, Space, par};
 
 /// Rows that are worked on together. Not part of the result.
 const BAND_ROWS: usize = 64;
@@ -114,6 +117,13 @@ pub struct Quantized<S> {
     pub distinct: usize,
 }
 
+impl Quantized<Object> {
+    fn relabel<S: Space>(self) -> Quantized<S> {
+        let Self { map, error, level_errors, zador_rms_rad, distinct } = self;
+        Quantized { map: map.map_normals(Normal::relabel), error, level_errors, zador_rms_rad, distinct }
+    }
+}
+
 /// Quantises `map` to a table of `options.entries` normals. The map may be one of normals or of 24-bit colours.
 ///
 /// Every entry is a unit normal that 16 bits per component hold exactly, and every texel has the entry of its material
@@ -134,35 +144,43 @@ pub fn quantize<'a, S: Space>(
     progress: &dyn Progress,
 ) -> Result<Quantized<S>> {
     let map = map.into();
-    let &Options { entries: count, effort, materials, covered, .. } = options;
-    check_entries(count)?;
-    materials.map_or(Ok(()), |m| map.expect_same_size("material map", m))?;
-    covered.map_or(Ok(()), |c| map.expect_same_size("coverage mask", c))?;
+    check_entries(options.entries)?;
+    options.materials.map_or(Ok(()), |m| map.expect_same_size("material map", m))?;
+    options.covered.map_or(Ok(()), |c| map.expect_same_size("coverage mask", c))?;
+    quantize_bare(map.size(), map.source(), options, progress).map(Quantized::relabel)
+}
 
+/// [`quantize`] without the label; see [`crate::normal::Bare`].
+fn quantize_bare(
+    (width, height): (u32, u32),
+    texels: Source<'_>,
+    options: &Options<'_>,
+    progress: &dyn Progress,
+) -> Result<Quantized<Object>> {
+    let &Options { entries: count, effort, materials, covered, .. } = options;
     progress.begin("finding distinct normals", 1);
-    let Gathered { points, mut class_of, point_of } = gather(map, materials, covered);
+    let Gathered { points, mut class_of, point_of } = gather(texels, materials, covered);
     progress.advance(1);
-    let Made { table, entries, owners } = table::make::<S>(&points, count, effort, progress)?;
+    let Made { table, entries, owners } = table::make(&points, count, effort, progress)?;
 
     progress.begin("indexing texels", 1);
-    let entry_of: Vec<u32> = point_of.iter().map(|&point| owners[point as usize]).collect();
+    let entry_of = par::map_range(point_of.len(), |class| owners[point_of[class] as usize]);
     let nearest = Nearest::new(&entries);
     let group_of = |texel: usize| {
         let material = materials.map_or(0, |m| m.texels()[texel]);
         points.groups.binary_search_by_key(&material, |g| g.material).ok()
     };
-    let (width, height) = map.size();
     // The index of each texel takes the place of its class: one array less.
     par::for_each_row(&mut class_of, width as usize, |y, row| {
         for (x, slot) in row.iter_mut().enumerate() {
             let texel = y * width as usize + x;
             *slot = match *slot {
-                NO_POINT => gutter(&entries, &nearest, group_of(texel), map.normal(texel).vec().to_array()),
+                NO_POINT => gutter(&entries, &nearest, group_of(texel), texels.normal(texel).vec().to_array()),
                 class => entry_of[class as usize],
             };
         }
     });
-    let base: IndexMap = Grid::new(width, height, class_of.into_iter().map(|i| i as u16).collect())?;
+    let base: IndexMap = Grid::new(width, height, par::map_range(class_of.len(), |texel| class_of[texel] as u16))?;
     progress.advance(1);
 
     let mut indexer = Indexer::new(base, options, &entries, &nearest, false);
@@ -170,9 +188,9 @@ pub fn quantize<'a, S: Space>(
         progress.begin("dithering, smaller levels", height.into());
         for first in (0..height).step_by(BAND_ROWS) {
             let rows = first as usize..(first as usize + BAND_ROWS).min(height as usize);
-            let texels = rows.start * width as usize..rows.end * width as usize;
-            let covered = covered.map(|c| &c.texels()[texels.clone()]);
-            indexer.push(&Rows { first: texels.start, normals: &map.decoded(texels), covered });
+            let band = rows.start * width as usize..rows.end * width as usize;
+            let covered = covered.map(|c| &c.texels()[band.clone()]);
+            indexer.push(&Rows { first: band.start, normals: &texels.decoded(band), covered });
             progress.advance(rows.len() as u64);
         }
     }

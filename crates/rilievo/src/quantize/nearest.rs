@@ -1,19 +1,23 @@
 //! Which entry is nearest to a single direction.
 
+use super::candidates::Candidates;
 use super::entries::{Entries, squared_f64};
 use super::octahedral::morton;
 use super::points::Points;
 use super::tree::{SLACK, Tree};
+use crate::order::greater;
 
 /// Entries of a quadtree leaf: a few, as each visit costs as much as looking at some entries.
 const LEAF: usize = 6;
 
-/// A quadtree over the entries of each group.
+/// The entries of each group, sorted for searching.
 #[derive(Debug)]
 pub(super) struct Nearest {
+    candidates: Candidates,
     points: Points,
     /// The table index of each point.
     ids: Vec<u32>,
+    /// For what lies far from all entries, and for what is not to find itself.
     tree: Tree,
 }
 
@@ -42,14 +46,27 @@ impl Nearest {
         };
         let points = Points::new(entries.spans.iter().map(group));
         let tree = Tree::build(&points, LEAF);
-        Self { points, ids, tree }
+        Self { candidates: Candidates::new(entries), points, ids, tree }
     }
 
-    /// The entry of `group` nearest to `direction` by [`squared_f64`]; of equals, the lowest. `hint` may be any entry of
-    /// the group: a good one saves time.
-    pub(super) fn find(&self, group: usize, direction: [f64; 3], hint: Option<(u32, [f32; 3])>) -> u32 {
-        let (entry, distance) = hint.map_or((NONE, f64::INFINITY), |(id, d)| (id, squared_f64(direction, d)));
-        let mut query = Query { direction, except: NONE, distance, entry };
+    /// The entry of `group` nearest to `direction`, a unit vector, by [`squared_f64`]; of equals, the lowest.
+    pub(super) fn find(&self, group: usize, direction: [f64; 3]) -> u32 {
+        let Some(candidates) = self.candidates.of(group, direction) else { return self.search(group, direction) };
+        let (mut nearest, mut found) = (f64::INFINITY, candidates[0].entry);
+        for candidate in candidates {
+            let distance = squared_f64(direction, candidate.direction);
+            if distance < nearest {
+                (nearest, found) = (distance, candidate.entry);
+            }
+        }
+        found
+    }
+
+    /// The same for any direction, without lists.
+    fn search(&self, group: usize, direction: [f64; 3]) -> u32 {
+        let first = self.points.groups[group].points.start;
+        let distance = squared_f64(direction, self.points.at(first));
+        let mut query = Query { direction, except: NONE, distance, entry: self.ids[first] };
         self.visit(self.tree.roots[group], &mut query);
         query.entry
     }
@@ -79,10 +96,9 @@ impl Nearest {
         for (slot, child) in order.iter_mut().zip(self.tree.children(node)) {
             let c = &self.tree.nodes[child as usize];
             let gap = squared_f64(query.direction, c.center).sqrt() - f64::from(c.radius) * f64::from(1.0 + SLACK);
-            // Not `max`: what it makes of NaN costs a call where processors have no instruction for it, as in WebAssembly.
-            *slot = (if gap > 0.0 { gap } else { 0.0 }, child);
+            *slot = (greater(gap, 0.0), child);
         }
-        // A network of five: this is done a few times for every texel of the smaller levels.
+        // A network of five.
         for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
             if order[j].0 < order[i].0 {
                 order.swap(i, j);
@@ -100,11 +116,13 @@ impl Nearest {
 
 #[cfg(test)]
 mod tests {
+    use super::super::entries::unit;
+    use super::super::octahedral;
     use super::super::testing::{brute_force, scattered};
     use super::*;
 
     #[test]
-    fn find_agrees_with_brute_force_with_and_without_a_hint() {
+    fn find_agrees_with_brute_force_and_so_does_search() {
         for count in [2, 30, 3000] {
             let points = scattered(count, 2);
             let group = |g: usize| points.groups[g].points.clone().map(|i| points.at(i)).collect::<Vec<_>>();
@@ -118,10 +136,38 @@ mod tests {
                 let span = entries.spans[g].clone();
                 let expected = (span.start + brute_force(q, &entries.directions[span.clone()])) as u32;
                 let wide = q.map(f64::from);
-                assert_eq!(nearest.find(g, wide, None), expected);
-                let hint = span.end - 1;
-                assert_eq!(nearest.find(g, wide, Some((hint as u32, entries.directions[hint]))), expected);
+                assert_eq!(nearest.find(g, wide), expected);
+                assert_eq!(nearest.search(g, wide), expected);
             }
+        }
+    }
+
+    /// On the borders of cells and between entries: where a list could lack one.
+    #[test]
+    fn lists_have_whatever_may_be_nearest() {
+        let ring = |i: usize| (std::f32::consts::TAU * i as f32 / 600.0).sin_cos();
+        let ring: Vec<[f32; 3]> = (0..600).map(ring).map(|(s, c)| unit([s, c, 0.7].map(f64::from)).unwrap()).collect();
+        let scattered = scattered(700, 1);
+        let mut all: Vec<[f32; 3]> = (0..scattered.len()).map(|i| scattered.at(i)).collect();
+        all.extend([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]);
+        for directions in [ring, all] {
+            let entries = Entries::from_groups([directions.clone()]);
+            let nearest = Nearest::new(&entries);
+            let mut lists = 0;
+            let mut check = |q: [f32; 3]| {
+                let wide = q.map(f64::from);
+                assert_eq!(nearest.find(0, wide), brute_force(q, &directions) as u32, "{q:?}");
+                lists += usize::from(nearest.candidates.of(0, wide).is_some());
+            };
+            let side = 64;
+            for (u, v) in (0..=side).flat_map(|u| (0..=side).map(move |v| (u, v))) {
+                check(octahedral::direction([u, v].map(|c| f64::from(c) / f64::from(side))).map(|c| c as f32));
+            }
+            for pair in directions.windows(2) {
+                let middle = [0, 1, 2].map(|k| f64::from(pair[0][k]) + f64::from(pair[1][k]));
+                unit(middle).into_iter().for_each(&mut check);
+            }
+            assert!(lists >= directions.len() - 1, "where entries are, there are lists: {lists}");
         }
     }
 

@@ -10,7 +10,7 @@ use fearless_simd::{Simd, f32x8, u32x8};
 use super::points::LANES;
 
 /// Bits of one coordinate in a Morton code.
-const MORTON_BITS: u32 = 17;
+pub(super) const MORTON_BITS: u32 = 17;
 /// Bits of a whole Morton code.
 pub(super) const MORTON_CODE_BITS: u32 = 2 * MORTON_BITS;
 /// Bits of one coordinate in a Hilbert code.
@@ -23,6 +23,17 @@ fn octahedral([x, y, z]: [f32; 3]) -> [f32; 2] {
     let toward = |c: f32| if c >= 0.0 { 1.0 } else { -1.0 };
     let (u, v) = if z < 0.0 { ((1.0 - v.abs()) * toward(u), (1.0 - u.abs()) * toward(v)) } else { (u, v) };
     [u * 0.5 + 0.5, v * 0.5 + 0.5]
+}
+
+/// The unit vector of a point of the square.
+pub(super) fn direction(at: [f64; 2]) -> [f64; 3] {
+    let [a, b] = at.map(|c| c * 2.0 - 1.0);
+    let z = 1.0 - a.abs() - b.abs();
+    // The lower half is folded over the edges of the upper one.
+    let fold = (-z).max(0.0);
+    let v = [a - fold.copysign(a), b - fold.copysign(b), z];
+    let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    v.map(|c| c / length)
 }
 
 /// The square's cell of a vector, with `bits` bits per side.
@@ -113,11 +124,8 @@ mod tests {
         let mut cells = Vec::new();
         for v in 0..side {
             for u in 0..side {
-                let (a, b) = ((u as f32 + 0.5) / side as f32 * 2.0 - 1.0, (v as f32 + 0.5) / side as f32 * 2.0 - 1.0);
-                let z = 1.0 - a.abs() - b.abs();
-                let fold = (-z).max(0.0);
-                let direction = [a - fold * a.signum(), b - fold * b.signum(), z];
-                cells.push((hilbert(direction), u, v));
+                let middle = [u, v].map(|c| (f64::from(c) + 0.5) / f64::from(side));
+                cells.push((hilbert(direction(middle).map(|c| c as f32)), u, v));
             }
         }
         cells.sort_unstable();

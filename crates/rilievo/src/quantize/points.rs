@@ -6,13 +6,16 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x8};
 
 use super::colors::{self, Colors};
 use super::entries::unit;
-use super::octahedral::{MORTON_CODE_BITS, morton};
-use super::texels::Texels;
-use crate::{Grid, MaterialMap, Normal, Space, par};
+use super::octahedral::{self, MORTON_CODE_BITS, morton};
+use super::radix::sort_by_upper_bits;
+use super::texels::Source;
+use crate::normal::Bare;
+use crate::{Grid, MaterialMap, par};
 
 /// How many points the kernels handle side by side; the arrays are padded by as many.
 pub(super) const LANES: usize = 8;
@@ -23,6 +26,8 @@ const ITEM_BITS: u32 = 64 - MORTON_CODE_BITS;
 const _: () = assert!(crate::grid::MAX_TEXELS <= 1 << ITEM_BITS);
 /// Texels that are looked at together. Part of the result's definition only in that runs end at its multiples.
 const PIECE: usize = 1 << 16;
+/// Keys that are looked at together: what belongs to them stays in the second cache.
+const BATCH: usize = 1 << 12;
 
 /// The points of one material.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -101,28 +106,54 @@ impl Points {
             values.reserve(keys.len() + LANES);
         }
         self.codes.reserve(keys.len());
-        let item = |key: &u64| (key & ((1 << ITEM_BITS) - 1)) as usize;
-        let mut cell = Vec::new();
-        for keys in keys.chunk_by(|a, b| a >> ITEM_BITS == b >> ITEM_BITS) {
-            if let &[key] = keys {
-                let (item, point) = (item(&key), self.x.len() as u32);
-                self.push(identity(item).map(f32::from_bits), 0.0);
-                self.codes.push(key >> ITEM_BITS);
-                found(item, point);
+        let (mut start, mut room) = (0, Room::default());
+        while start < keys.len() {
+            // A cell is not cut.
+            let last = keys.len().min(start + BATCH) - 1;
+            let end = last + keys[last..].iter().take_while(|&&key| cell_of(key) == cell_of(keys[last])).count();
+            self.add_cells(&keys[start..end], &identity, &mut found, &mut room);
+            start = end;
+        }
+        self.groups.push(Group { material, points: first..self.x.len() });
+    }
+
+    /// Adds whole cells of a group.
+    #[inline(never)]
+    fn add_cells(
+        &mut self,
+        keys: &[u64],
+        identity: &impl Fn(usize) -> [u32; 3],
+        found: &mut impl FnMut(usize, u32),
+        Room { items, points, cell }: &mut Room,
+    ) {
+        // Items lie all over the memory. In loops that do nothing else many of them are on their way at a time.
+        items.clear();
+        items.extend(keys.iter().map(|&key| identity(item_of(key))));
+        points.clear();
+        let mut start = 0;
+        for keys in keys.chunk_by(|&a, &b| cell_of(a) == cell_of(b)) {
+            let items = &items[start..start + keys.len()];
+            start += keys.len();
+            if let &[item] = items {
+                points.push(self.x.len() as u32);
+                self.push(item.map(f32::from_bits), 0.0);
+                self.codes.push(cell_of(keys[0]));
                 continue;
             }
             cell.clear();
-            cell.extend(keys.iter().map(|key| (identity(item(key)), item(key))));
+            cell.extend(items.iter().copied().zip(0..));
             // In most cells all are equal, and then in order already.
             cell.sort_unstable();
+            let first = points.len();
+            points.resize(first + keys.len(), 0);
             for equal in cell.chunk_by(|a, b| a.0 == b.0) {
                 let point = self.x.len() as u32;
                 self.push(equal[0].0.map(f32::from_bits), 0.0);
-                self.codes.push(keys[0] >> ITEM_BITS);
-                equal.iter().for_each(|&(_, item)| found(item, point));
+                self.codes.push(cell_of(keys[0]));
+                equal.iter().for_each(|&(_, place)| points[first + place] = point);
             }
         }
-        self.groups.push(Group { material, points: first..self.x.len() });
+        keys.iter().zip(&*points).for_each(|(&key, &point)| found(item_of(key), point));
     }
 
     fn pad(&mut self) {
@@ -154,30 +185,58 @@ pub(super) struct Gathered {
     pub point_of: Vec<u32>,
 }
 
+/// Room to work in.
+#[derive(Default)]
+struct Room {
+    /// What the items of keys are, and their points.
+    items: Vec<[u32; 3]>,
+    points: Vec<u32>,
+    /// What the items of a cell are, and their places in it.
+    cell: Vec<([u32; 3], usize)>,
+}
+
 /// What makes two normals the same. −0 equals 0.
-pub(super) fn identity<S: Space>(normal: Normal<S>) -> [u32; 3] {
+pub(super) fn identity(normal: Bare) -> [u32; 3] {
     normal.vec().to_array().map(|c| (c + 0.0).to_bits())
 }
 
-/// Where a normal stands, and whose it is.
-fn key<S: Space>(normal: Normal<S>, item: usize) -> u64 {
-    morton(normal.vec().to_array()) << ITEM_BITS | item as u64
+/// The Morton code of a key.
+fn cell_of(key: u64) -> u64 {
+    key >> ITEM_BITS
+}
+
+/// The number of a texel or of a colour in a key.
+fn item_of(key: u64) -> usize {
+    (key & ((1 << ITEM_BITS) - 1)) as usize
+}
+
+/// Where the normals of some texels stand, and whose they are.
+#[inline(always)]
+fn keys<S: Simd>(simd: S, texels: &[Bare], items: &[usize]) -> Vec<u64> {
+    let mut keys = Vec::with_capacity(items.len());
+    for items in items.chunks(LANES) {
+        let mut v = [[1.0f32; LANES]; 3];
+        for (l, &item) in items.iter().enumerate() {
+            let normal = texels[item].vec();
+            (v[0][l], v[1][l], v[2][l]) = (normal.x, normal.y, normal.z);
+        }
+        let load = [f32x8::from_slice(simd, &v[0]), f32x8::from_slice(simd, &v[1]), f32x8::from_slice(simd, &v[2])];
+        let codes = octahedral::morton_lanes(simd, load);
+        keys.extend(codes.into_iter().zip(items).map(|(code, &item)| code << ITEM_BITS | item as u64));
+    }
+    keys
 }
 
 /// Finds the distinct covered (normal, material) pairs of a map. Sizes must agree.
-pub(super) fn gather<S: Space>(
-    texels: Texels<'_, S>,
-    materials: Option<&MaterialMap>,
-    covered: Option<&Grid<bool>>,
-) -> Gathered {
+pub(super) fn gather(texels: Source<'_>, materials: Option<&MaterialMap>, covered: Option<&Grid<bool>>) -> Gathered {
     match (texels, materials) {
-        (Texels::Rgb8(codes), None) => of_colors(codes, covered),
+        (Source::Rgb8(codes), None) => of_colors(codes, covered),
         _ => of_texels(&texels.decoded(0..texels.len()), materials, covered),
     }
 }
 
-fn of_colors(codes: &Grid<[u8; 3]>, covered: Option<&Grid<bool>>) -> Gathered {
-    let Colors { distinct, counts, rank_of } = colors::distinct(codes.texels(), covered.map(Grid::texels));
+fn of_colors(codes: &[[u8; 3]], covered: Option<&Grid<bool>>) -> Gathered {
+    let Colors { distinct, counts, rank_of } = colors::distinct(codes, covered.map(Grid::texels));
     let (points, point_of) = of_counted_colors(&distinct, &counts);
     Gathered { points, class_of: rank_of, point_of }
 }
@@ -195,7 +254,7 @@ pub(super) fn of_counted_colors(distinct: &[[u8; 3]], counts: &[u32]) -> (Points
         keys.extend((first..).zip(codes).map(|(rank, code)| code << ITEM_BITS | rank));
         directions.extend(some);
     }
-    par::sort_unstable(&mut keys);
+    sort_by_upper_bits(&mut keys, ITEM_BITS, MORTON_CODE_BITS);
     let mut points = Points::default();
     let mut point_of = vec![NO_POINT; distinct.len()];
     if !keys.is_empty() {
@@ -209,24 +268,21 @@ pub(super) fn of_counted_colors(distinct: &[[u8; 3]], counts: &[u32]) -> (Points
     (points, point_of)
 }
 
-fn of_texels<S: Space>(
-    texels: &[Normal<S>],
-    materials: Option<&MaterialMap>,
-    covered: Option<&Grid<bool>>,
-) -> Gathered {
+fn of_texels(texels: &[Bare], materials: Option<&MaterialMap>, covered: Option<&Grid<bool>>) -> Gathered {
     let is_covered = |texel: usize| covered.is_none_or(|c| c.texels()[texel]);
     let material_of = |texel: usize| materials.map_or(0, |m| m.texels()[texel]);
     let same = |a: usize, b: usize| texels[a] == texels[b] && material_of(a) == material_of(b);
 
+    let level = Level::new();
     let pieces = par::map_range(texels.len().div_ceil(PIECE), |piece| {
         let first = piece * PIECE;
         let starts_run = |&t: &usize| is_covered(t) && (t == first || !is_covered(t - 1) || !same(t, t - 1));
-        let key = |t: usize| key(texels[t], t);
-        (first..texels.len().min(first + PIECE)).filter(starts_run).map(key).collect::<Vec<_>>()
+        let starts: Vec<usize> = (first..texels.len().min(first + PIECE)).filter(starts_run).collect();
+        dispatch!(level, simd => keys(simd, texels, &starts))
     });
     let mut keys = pieces.concat();
     drop(pieces);
-    par::sort_unstable(&mut keys);
+    sort_by_upper_bits(&mut keys, ITEM_BITS, MORTON_CODE_BITS);
 
     let mut class_of = vec![NO_POINT; texels.len()];
     let mut points = Points::default();
@@ -234,17 +290,11 @@ fn of_texels<S: Space>(
         points.add_group(material, &keys, |texel| identity(texels[texel]), |texel, point| class_of[texel] = point);
     }
 
-    let mut counts = vec![0u32; points.x.len()];
-    let mut current = NO_POINT;
-    for (texel, point) in class_of.iter_mut().enumerate() {
-        if *point != NO_POINT {
-            current = *point;
-        } else if is_covered(texel) {
-            *point = current;
-        }
-        if *point != NO_POINT {
-            counts[*point as usize] += 1;
-        }
+    let (mut counts, mut current) = (vec![0u32; points.x.len()], NO_POINT);
+    for first in (0..texels.len()).step_by(PIECE) {
+        let piece = first..texels.len().min(first + PIECE);
+        let covered = covered.map(|c| &c.texels()[piece.clone()]);
+        current = end_runs(&mut class_of[piece], covered, current, &mut counts);
     }
     for (weight, count) in points.weight.iter_mut().zip(counts) {
         *weight = count as f32;
@@ -252,6 +302,22 @@ fn of_texels<S: Space>(
     let point_of = (0..points.x.len() as u32).collect();
     points.pad();
     Gathered { points, class_of, point_of }
+}
+
+/// Gives the texels of each run the point that its first one has, and counts texels; gives the last run's.
+#[inline(never)]
+fn end_runs(class_of: &mut [u32], covered: Option<&[bool]>, mut current: u32, counts: &mut [u32]) -> u32 {
+    for (texel, point) in class_of.iter_mut().enumerate() {
+        if *point != NO_POINT {
+            current = *point;
+        } else if covered.is_none_or(|c| c[texel]) {
+            *point = current;
+        } else {
+            continue;
+        }
+        counts[*point as usize] += 1;
+    }
+    current
 }
 
 /// Sorted keys of texels, parted by material without losing their order; in rising order of material.
@@ -275,7 +341,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::{NormalMap, Object};
+    use crate::{Normal, NormalMap, Object};
 
     fn map(directions: &[[f32; 3]]) -> NormalMap<Object> {
         let normals = directions.iter().map(|&d| Normal::new(Vec3::from_array(d)).unwrap()).collect();
@@ -286,7 +352,7 @@ mod tests {
     fn equal_texels_share_a_point_and_zeros_have_no_sign() {
         let z = [0.0, 0.0, 1.0];
         let map = map(&[z, z, [1.0, 0.0, 0.0], [-0.0, 0.0, 1.0], z, [0.0, 1.0, 0.0]]);
-        let found = gather(Texels::Normals(&map), None, None);
+        let found = gather(Source::Normals(map.texels()), None, None);
         assert_eq!(found.points.len(), 3);
         let p = &found.class_of;
         assert!(p[0] == p[1] && p[1] == p[3] && p[3] == p[4] && p[0] != p[2] && p[5] != p[2]);
@@ -299,7 +365,7 @@ mod tests {
         let map = map(&[[0.0, 0.0, 1.0]; 5]);
         let materials = Grid::new(5, 1, vec![7, 7, 3, 3, 7]).unwrap();
         let covered = Grid::new(5, 1, vec![true, false, true, true, true]).unwrap();
-        let found = gather(Texels::Normals(&map), Some(&materials), Some(&covered));
+        let found = gather(Source::Normals(map.texels()), Some(&materials), Some(&covered));
         assert_eq!(found.class_of, [1, NO_POINT, 0, 0, 1]);
         assert_eq!(found.points.weight[..2], [2.0, 2.0]);
         let group = |material, points| Group { material, points };
@@ -309,7 +375,7 @@ mod tests {
     #[test]
     fn weights_and_ids_survive_runs_over_pieces() {
         let flat = Grid::filled(1 << 9, 1 << 9, Normal::<Object>::Z).unwrap();
-        let found = gather(Texels::Normals(&flat), None, None);
+        let found = gather(Source::Normals(flat.texels()), None, None);
         assert_eq!((found.points.len(), found.points.weight[0]), (1, 262_144.0));
         assert!(found.class_of.iter().all(|&p| p == 0));
     }

@@ -2,16 +2,15 @@
 
 use glam::Vec3;
 
-use crate::normal::{decode_u16, encode_u16};
-use crate::{Normal, Space};
+use crate::normal::{Bare, decode_u16, encode_u16};
 
 /// The 16-bit normal nearest to a unit vector that encodes and decodes to itself.
 ///
 /// Rounding alone is not enough: decoding makes the vector unit length again, which may push a component over to the
 /// next code, so that a table written, read and written again would creep. Then one of the neighbouring codes is taken
 /// (that there always is one is held by `every_direction_has_a_stable_code`).
-pub(super) fn storable<S: Space>(unit: [f32; 3]) -> Normal<S> {
-    let wanted = Normal::<S>::from_unit(Vec3::from_array(unit));
+pub(super) fn storable(unit: [f32; 3]) -> Bare {
+    let wanted = Bare::from_unit(Vec3::from_array(unit));
     let code = encode_u16(wanted);
     let simple = decode_u16(code);
     if simple == wanted || is_stable(code) {
@@ -20,7 +19,7 @@ pub(super) fn storable<S: Space>(unit: [f32; 3]) -> Normal<S> {
     let neighbour = |step: i32| {
         let steps = [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1];
         let moved = [0, 1, 2].map(|k| (i32::from(code[k]) + steps[k]).clamp(0, 65_535) as u16);
-        let candidate = decode_u16::<S>(moved);
+        let candidate = decode_u16(moved);
         let distance = (candidate.vec().as_dvec3() - wanted.vec().as_dvec3()).length_squared();
         // Close to the axes there may be none but those at the border of their cell.
         (encode_u16(candidate) == moved).then_some((!is_stable(moved), distance, candidate))
@@ -42,7 +41,7 @@ fn is_stable(code: [u16; 3]) -> bool {
 mod tests {
     use super::super::testing::scattered;
     use super::*;
-    use crate::Object;
+    use crate::{Normal, Object};
 
     #[test]
     fn every_direction_has_a_stable_code() {
@@ -50,9 +49,9 @@ mod tests {
         let (mut worst, mut moved) = (0.0f64, 0);
         for i in 0..points.len() {
             let wanted = Normal::<Object>::new(Vec3::from_array(points.at(i))).unwrap();
-            let stored = storable::<Object>(points.at(i));
+            let stored = storable(points.at(i));
             assert_eq!(decode_u16::<Object>(encode_u16(stored)), stored);
-            assert_eq!(storable::<Object>(stored.vec().to_array()), stored);
+            assert_eq!(storable(stored.vec().to_array()), stored);
             worst = worst.max(stored.angle_to(wanted));
             moved += u32::from(stored != decode_u16::<Object>(encode_u16(wanted)));
         }

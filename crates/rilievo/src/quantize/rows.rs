@@ -10,6 +10,7 @@ use super::table::{self, Made, error_of, gutter};
 use super::tally::{Counted, Tally, code};
 use super::texels::decode_all;
 use super::{Options, Quantized, bound, check_entries};
+use crate::normal::Bare;
 use crate::{Error, Grid, Normal, Progress, QuantizedMap, Space, par};
 
 /// A normal map that can be gone through from top to bottom, more than once.
@@ -98,8 +99,8 @@ pub fn quantize_rows<S: Space, R: RowSource<S>>(
 
     let mut tally = Tally::new();
     pass(source, "counting normals", progress, |_, band| tally.add(&band))?;
-    let Counted { points, colors } = tally.finish::<S>();
-    let Made { table, entries, owners } = table::make::<S>(&points, count, effort, progress)?;
+    let Counted { points, colors } = tally.finish();
+    let Made { table, entries, owners } = table::make(&points, count, effort, progress)?;
 
     let mut owner_of = colors.map(|(distinct, point_of)| {
         let mut owner_of = vec![NONE; 1 << 24];
@@ -115,7 +116,7 @@ pub fn quantize_rows<S: Space, R: RowSource<S>>(
     pass(source, "indexing texels", progress, |first, band| {
         let slots = indexer.slots(first..first + band.texels.count());
         match (&mut owner_of, band.texels) {
-            (Some(owner_of), BandTexels::Rgb8(codes)) => search.look_up::<S>(owner_of, codes, slots),
+            (Some(owner_of), BandTexels::Rgb8(codes)) => search.look_up(owner_of, codes, slots),
             _ => search.find(&band, width as usize, slots),
         }
         if needs_rows {
@@ -123,13 +124,14 @@ pub fn quantize_rows<S: Space, R: RowSource<S>>(
         }
     })?;
     let indexed = indexer.finish()?;
-    Ok(Quantized {
+    let bare = Quantized {
         error: indexed.error.unwrap_or_else(|| error_of(&points, &entries, &owners)),
         map: QuantizedMap::new(table, indexed.chain)?,
         level_errors: indexed.level_errors,
         zador_rms_rad: bound::zador_rms_rad(&points, entries.len()),
         distinct: points.len(),
-    })
+    };
+    Ok(bare.relabel())
 }
 
 /// No entry yet.
@@ -173,12 +175,12 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Entries of colours, most of them known; the others are added.
-    fn look_up<S: Space>(&self, owner_of: &mut [u32], codes: &[[u8; 3]], slots: &mut [u16]) {
+    fn look_up(&self, owner_of: &mut [u32], codes: &[[u8; 3]], slots: &mut [u16]) {
         for (slot, &color) in slots.iter_mut().zip(codes) {
             let owner = &mut owner_of[code(color)];
             if *owner == NONE {
                 // Only gutter has it.
-                let normal: Normal<S> = crate::normal::decode_u8(color);
+                let normal: Bare = crate::normal::decode_u8(color);
                 *owner = gutter(self.entries, self.nearest, Some(0), normal.vec().to_array());
             }
             *slot = *owner as u16;
@@ -189,20 +191,12 @@ impl Search<'_> {
     fn find<S: Space>(&self, band: &Band<'_, S>, width: usize, slots: &mut [u16]) {
         let normals = band.normals();
         par::for_each_row(slots, width, |row, slots| {
-            let mut last: Option<(usize, u32)> = None;
             for (i, slot) in (row * width..).zip(slots) {
                 let material = band.materials.map_or(0, |m| m[i]);
                 let group = self.points.groups.binary_search_by_key(&material, |g| g.material).ok();
                 let normal = normals[i].vec().to_array();
                 let entry = match group {
-                    Some(group) => {
-                        // The neighbour's entry is a good first guess.
-                        let hint = last.filter(|last| last.0 == group);
-                        let hint = hint.map(|(_, entry)| (entry, self.entries.directions[entry as usize]));
-                        let entry = self.nearest.find(group, normal.map(f64::from), hint);
-                        last = Some((group, entry));
-                        entry
-                    }
+                    Some(group) => self.nearest.find(group, normal.map(f64::from)),
                     None => gutter(self.entries, self.nearest, None, normal),
                 };
                 *slot = entry as u16;
@@ -213,9 +207,9 @@ impl Search<'_> {
 
 impl<'a, S: Space> Band<'a, S> {
     /// The texels as unit vectors.
-    fn normals(&self) -> Cow<'a, [Normal<S>]> {
+    fn normals(&self) -> Cow<'a, [Bare]> {
         match self.texels {
-            BandTexels::Normals(normals) => Cow::Borrowed(normals),
+            BandTexels::Normals(normals) => Cow::Borrowed(Normal::relabel_all(normals)),
             BandTexels::Rgb8(codes) => Cow::Owned(decode_all(codes)),
         }
     }

@@ -8,18 +8,18 @@ use super::{Effort, lloyd, octahedral, round};
 use crate::indexed::{MaterialSpan, NormalTable};
 use crate::measure::{AngleStats, angle_of_chord, weighted_angle_stats};
 use crate::normal::encode_u16;
-use crate::{Error, Progress, Result, Space, par};
+use crate::{Error, Object, Progress, Result, par};
 
 /// A table, and what every point has of it.
-pub(super) struct Made<S> {
-    pub table: NormalTable<S>,
+pub(super) struct Made {
+    pub table: NormalTable<Object>,
     pub entries: Entries,
     /// The entry nearest to each point.
     pub owners: Vec<u32>,
 }
 
 /// Makes the best table of `count` entries, or of as many as there are points.
-pub(super) fn make<S: Space>(points: &Points, count: u32, effort: Effort, progress: &dyn Progress) -> Result<Made<S>> {
+pub(super) fn make(points: &Points, count: u32, effort: Effort, progress: &dyn Progress) -> Result<Made> {
     let in_use = points.groups.len();
     if in_use == 0 {
         return Err(Error::Missing { what: "covered texels", remedy: "give a coverage mask that is true somewhere" });
@@ -35,7 +35,7 @@ pub(super) fn make<S: Space>(points: &Points, count: u32, effort: Effort, progre
     } else {
         lloyd::shape(points, count as usize, lloyd::Schedule::new(effort, count), progress)
     };
-    let (table, entries, new_of) = finish_table::<S>(points, shaped)?;
+    let (table, entries, new_of) = finish_table(points, shaped)?;
     cells.renumber(&new_of);
     cells.assign_exact(&entries);
     Ok(Made { table, entries, owners: cells.owners(points.len()) })
@@ -53,19 +53,19 @@ pub(super) fn error_of(points: &Points, entries: &Entries, owners: &[u32]) -> An
 /// The entry of a texel that is not covered: the nearest of its group, or of all if it has none.
 pub(super) fn gutter(entries: &Entries, nearest: &Nearest, group: Option<usize>, normal: [f32; 3]) -> u32 {
     let direction = normal.map(f64::from);
-    let find = |group| nearest.find(group, direction, None);
+    let find = |group| nearest.find(group, direction);
     let distance = |&e: &u32| entries::squared_f64(direction, entries.directions[e as usize]);
     let of_any = || (0..entries.spans.len()).map(find).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     group.map(find).or_else(of_any).unwrap_or(0)
 }
 
 /// Rounds the entries to what files hold and puts them in table order; the last result is the new number of each.
-fn finish_table<S: Space>(points: &Points, shaped: Entries) -> Result<(NormalTable<S>, Entries, Vec<u32>)> {
+fn finish_table(points: &Points, shaped: Entries) -> Result<(NormalTable<Object>, Entries, Vec<u32>)> {
     let mut normals = Vec::with_capacity(shaped.len());
     let mut spans = Vec::with_capacity(points.groups.len());
     let mut new_of = vec![0; shaped.len()];
     for (group, span) in points.groups.iter().zip(&shaped.spans) {
-        let mut part: Vec<_> = span.clone().map(|e| (round::storable::<S>(shaped.directions[e]), e)).collect();
+        let mut part: Vec<_> = span.clone().map(|e| (round::storable(shaped.directions[e]), e)).collect();
         part.sort_by_cached_key(|&(n, _)| (octahedral::hilbert(n.vec().to_array()), encode_u16(n)));
         for (normal, old) in part {
             new_of[old] = normals.len() as u32;

@@ -10,8 +10,8 @@ use std::collections::HashMap;
 use super::octahedral::{MORTON_CODE_BITS, morton};
 use super::points::{Points, of_counted_colors};
 use super::rows::{Band, BandTexels};
-use crate::normal::decode_u8;
-use crate::{Normal, Space};
+use crate::Space;
+use crate::normal::{Bare, decode_u8};
 
 /// Colours of 24 bits.
 const COLORS: usize = 1 << 24;
@@ -60,15 +60,15 @@ impl Tally {
                 covered.for_each(|i| self.colors[code(codes[i])] += 1);
             }
             (BandTexels::Rgb8(codes), Some(materials)) => {
-                covered.for_each(|i| self.add_normal(decode_u8::<S>(codes[i]), materials[i], 1));
+                covered.for_each(|i| self.add_normal(decode_u8(codes[i]), materials[i], 1));
             }
             (BandTexels::Normals(normals), materials) => {
-                covered.for_each(|i| self.add_normal(normals[i], materials.map_or(0, |m| m[i]), 1));
+                covered.for_each(|i| self.add_normal(normals[i].relabel(), materials.map_or(0, |m| m[i]), 1));
             }
         }
     }
 
-    fn add_normal<S: Space>(&mut self, normal: Normal<S>, material: u8, count: u32) {
+    fn add_normal(&mut self, normal: Bare, material: u8, count: u32) {
         let direction = normal.vec().to_array();
         let key = u64::from(material) << MORTON_CODE_BITS | morton(direction);
         let cell = self.cells.entry(key >> (2 * self.coarseness)).or_default();
@@ -93,7 +93,7 @@ impl Tally {
     }
 
     /// The points that stand for what was counted.
-    pub(super) fn finish<S: Space>(mut self) -> Counted {
+    pub(super) fn finish(mut self) -> Counted {
         let colors = std::mem::take(&mut self.colors);
         let distinct: Vec<usize> = (0..colors.len()).filter(|&code| colors[code] > 0).collect();
         if self.cells.is_empty() {
@@ -103,7 +103,7 @@ impl Tally {
             return Counted { points, colors: Some((distinct, point_of)) };
         }
         for code in distinct {
-            self.add_normal(decode_u8::<S>(color(code)), 0, colors[code]);
+            self.add_normal(decode_u8(color(code)), 0, colors[code]);
         }
         let bits = MORTON_CODE_BITS - 2 * self.coarseness;
         let mean = |(key, (sum, count)): (u64, ([f64; 3], u32))| {
@@ -117,7 +117,7 @@ impl Tally {
 mod tests {
     use super::super::testing::scattered;
     use super::*;
-    use crate::Object;
+    use crate::{Normal, Object};
     use glam::Vec3;
 
     #[test]
@@ -130,7 +130,7 @@ mod tests {
             let mut tally = Tally { most_cells, ..Tally::new() };
             let texels = BandTexels::Normals(&normals);
             tally.add(&Band { texels, covered: None, materials: Some(&materials) });
-            let Counted { points: found, colors } = tally.finish::<Object>();
+            let Counted { points: found, colors } = tally.finish();
             assert!(colors.is_none() && found.len() <= most_cells && found.groups.len() == 2);
             for group in &found.groups {
                 let (mut sum, mut expected) = ([0.0; 4], [0.0; 4]);
@@ -149,7 +149,7 @@ mod tests {
         let few: Vec<Normal<Object>> = (0..1000).map(|i| normals[i % 7 * 4]).collect();
         let mut tally = Tally::new();
         tally.add(&Band { texels: BandTexels::Normals(&few), covered: None, materials: None });
-        let found = tally.finish::<Object>().points;
+        let found = tally.finish().points;
         assert_eq!(found.len(), 7);
         assert!((0..7).all(|i| few.iter().any(|n| n.vec().to_array() == found.at(i))));
     }

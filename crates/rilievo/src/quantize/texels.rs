@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use crate::normal::decode_u8;
+use crate::normal::{Bare, decode_u8};
 use crate::{Grid, Normal, NormalMap, Result, Space, par};
 
 /// A normal map to quantise, in the form it is at hand. `&NormalMap` and `&Grid<[u8; 3]>` turn into it by themselves.
@@ -40,22 +40,8 @@ impl<'a, S: Space> Texels<'a, S> {
     /// Width and height in texels.
     pub(super) fn size(&self) -> (u32, u32) {
         match self {
-            Self::Normals(map) => (map.width(), map.height()),
-            Self::Rgb8(codes) => (codes.width(), codes.height()),
-        }
-    }
-
-    /// How many there are.
-    pub(super) fn len(&self) -> usize {
-        let (width, height) = self.size();
-        width as usize * height as usize
-    }
-
-    /// The normal of a texel, by its number in reading order.
-    pub(super) fn normal(&self, texel: usize) -> Normal<S> {
-        match self {
-            Self::Normals(map) => map.texels()[texel],
-            Self::Rgb8(codes) => decode_u8(codes.texels()[texel]),
+            Self::Normals(map) => map.size(),
+            Self::Rgb8(codes) => codes.size(),
         }
     }
 
@@ -67,16 +53,49 @@ impl<'a, S: Space> Texels<'a, S> {
         }
     }
 
-    /// Some texels as unit vectors.
-    pub(super) fn decoded(&self, texels: Range<usize>) -> Cow<'a, [Normal<S>]> {
+    /// The same without their label, row after row.
+    pub(super) fn source(&self) -> Source<'a> {
         match self {
-            Self::Normals(map) => Cow::Borrowed(&map.texels()[texels]),
-            Self::Rgb8(codes) => Cow::Owned(decode_all(&codes.texels()[texels])),
+            Self::Normals(map) => Source::Normals(Normal::relabel_all(map.texels())),
+            Self::Rgb8(codes) => Source::Rgb8(codes.texels()),
+        }
+    }
+}
+
+/// [`Texels`] in reading order.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Source<'a> {
+    Normals(&'a [Bare]),
+    Rgb8(&'a [[u8; 3]]),
+}
+
+impl<'a> Source<'a> {
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Normals(normals) => normals.len(),
+            Self::Rgb8(codes) => codes.len(),
+        }
+    }
+
+    /// The normal of a texel.
+    pub(super) fn normal(&self, texel: usize) -> Bare {
+        match self {
+            Self::Normals(normals) => normals[texel],
+            Self::Rgb8(codes) => decode_u8(codes[texel]),
+        }
+    }
+
+    /// Some texels as unit vectors.
+    pub(super) fn decoded(&self, texels: Range<usize>) -> Cow<'a, [Bare]> {
+        match self {
+            Self::Normals(normals) => Cow::Borrowed(&normals[texels]),
+            Self::Rgb8(codes) => Cow::Owned(decode_all(&codes[texels])),
         }
     }
 }
 
 /// Normals of colours.
-pub(super) fn decode_all<S: Space>(codes: &[[u8; 3]]) -> Vec<Normal<S>> {
+pub(super) fn decode_all(codes: &[[u8; 3]]) -> Vec<Bare> {
     par::map_range(codes.len(), |i| decode_u8(codes[i]))
 }

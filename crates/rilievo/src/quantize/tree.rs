@@ -1,6 +1,7 @@
 //! A quadtree over points in Morton order: every node has a bounding ball and the moments of what is in it.
 
 use super::points::Points;
+use crate::order::{greater, lesser};
 
 /// A node; its points follow each other. A node's children follow it, each with its own descendants.
 #[derive(Debug, Clone)]
@@ -67,8 +68,8 @@ impl Tree {
         let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
         let mut enclose = |l: [f32; 3], h: [f32; 3]| {
             for axis in 0..3 {
-                low[axis] = low[axis].min(l[axis]);
-                high[axis] = high[axis].max(h[axis]);
+                low[axis] = lesser(l[axis], low[axis]);
+                high[axis] = greater(h[axis], high[axis]);
             }
         };
         if last - first <= leaf {
@@ -89,7 +90,7 @@ impl Tree {
             for i in first..last {
                 let weight = f64::from(points.weight[i]);
                 let p = points.at(i);
-                farthest = farthest.max(squared(center, p));
+                farthest = greater(squared(center, p), farthest);
                 moment = add(moment, [p[0], p[1], p[2], 1.0].map(|c| f64::from(c) * weight));
             }
             radius = farthest.sqrt();

@@ -3,20 +3,14 @@
 use super::triangles::Triangles;
 use super::{Rows, Table, dot, sub};
 use crate::normal::BlueNoise;
-use crate::{Space, par};
+use crate::par;
 
 /// Replaces nearest entries by drawn ones.
 ///
 /// The three entries are the corners of the Delaunay triangle that holds the normal, each drawn as often as its
 /// barycentric weight says: the mean over the mask is the normal itself. Corners are ordered by table index, which
 /// follows a Hilbert curve, so that texels next to each other cut the mask at like places.
-pub(super) fn choose<S: Space>(
-    table: &Table<'_>,
-    triangles: &Triangles,
-    rows: &Rows<'_, S>,
-    width: usize,
-    slots: &mut [u16],
-) {
+pub(super) fn choose(table: &Table<'_>, triangles: &Triangles, rows: &Rows<'_>, width: usize, slots: &mut [u16]) {
     let mask = BlueNoise::get();
     let top = rows.first / width;
     par::for_each_row(slots, width, |y, slots| {
@@ -48,7 +42,7 @@ fn edge(table: &Table<'_>, normal: [f64; 3], own: u32) -> [(u32, f64); 3] {
     let twice = 2.0 * dot(normal, from);
     let mirrored = sub(normal.map(|c| c * twice), from);
     let group = usize::from(table.group_of[own as usize]);
-    let other = table.nearest.find(group, mirrored, Some((own, table.direction(own))));
+    let other = table.nearest.find(group, mirrored);
     let along = sub(table.direction(other).map(f64::from), from);
     let length2 = dot(along, along);
     let weight = if length2 > 0.0 { (dot(sub(normal, from), along) / length2).clamp(0.0, 1.0) } else { 0.0 };

@@ -1,7 +1,8 @@
 //! Error diffusion (Floyd and Steinberg 1976) with errors that are differences of vectors.
 
 use super::{Rows, Table, dot, sub};
-use crate::{Normal, Space, par};
+use crate::normal::Bare;
+use crate::par;
 
 /// Errors are cut to so many times the distance between an entry and its neighbour.
 ///
@@ -18,7 +19,7 @@ const MOST_ERROR: f64 = 2.0;
 /// Errors that have no way on (at the border of the map, of a material, of gutter) go to the other neighbours in
 /// proportion instead of being dropped: with materials in patches of 5 × 5 texels the bunny's errors after a low-pass
 /// are 1.18° instead of 1.40° (256 entries; 4.37° undithered).
-pub(super) struct Diffusion<S> {
+pub(super) struct Diffusion {
     width: usize,
     height: usize,
     most_error: Vec<f64>,
@@ -28,12 +29,12 @@ pub(super) struct Diffusion<S> {
     /// The next row to be done. A row needs to know which texels below it take errors.
     y: usize,
     /// Texels from that row on: normals, which of them are covered, and which take errors of which group.
-    normals: Vec<Normal<S>>,
+    normals: Vec<Bare>,
     covered: Vec<bool>,
     open: Vec<Option<u8>>,
 }
 
-impl<S: Space> Diffusion<S> {
+impl Diffusion {
     pub(super) fn new((width, height): (u32, u32), table: &Table<'_>) -> Self {
         let (width, height) = (width as usize, height as usize);
         let carried = vec![[0.0; 3]; width];
@@ -54,9 +55,9 @@ impl<S: Space> Diffusion<S> {
     pub(super) fn push(
         &mut self,
         table: &Table<'_>,
-        rows: &Rows<'_, S>,
+        rows: &Rows<'_>,
         texels: &mut [u16],
-        done: &mut dyn FnMut(Rows<'_, S>, &[u16]),
+        done: &mut dyn FnMut(Rows<'_>, &[u16]),
     ) {
         let count = rows.normals.len();
         self.normals.extend_from_slice(rows.normals);
@@ -93,11 +94,10 @@ impl<S: Space> Diffusion<S> {
         for step in 0..width {
             let x = if leftwards { width - 1 - step } else { step };
             let Some(group) = open[x] else { continue };
-            let own = u32::from(slots[x]);
             let normal = self.normals[start + x].vec().to_array().map(f64::from);
             // Back to the sphere first: length is nothing that an entry could pay back.
             let target = toward(normal, here[x]);
-            let entry = table.nearest.find(usize::from(group), target, Some((own, table.direction(own))));
+            let entry = table.nearest.find(usize::from(group), target);
             slots[x] = entry as u16;
 
             let error = sub(target, table.direction(entry).map(f64::from));

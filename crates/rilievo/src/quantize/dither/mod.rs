@@ -13,7 +13,7 @@ use self::triangles::Triangles;
 use super::entries::{Entries, squared_f64};
 use super::index::Rows;
 use super::nearest::Nearest;
-use crate::{IndexMap, Space};
+use crate::IndexMap;
 
 /// How texels choose their entries.
 ///
@@ -56,25 +56,25 @@ impl Table<'_> {
     ///
     /// Gutter does, and so do normals that stand in the table up to its rounding: flat parts stay flat, whatever is
     /// beside them.
-    fn dithered_group<S: Space>(&self, rows: &Rows<'_, S>, i: usize, own: u16) -> Option<u8> {
+    fn dithered_group(&self, rows: &Rows<'_>, i: usize, own: u16) -> Option<u8> {
         let is_exact = || squared_f64(rows.direction(i), self.direction(own.into())) <= EXACT * EXACT;
         (rows.is_covered(i) && !is_exact()).then(|| self.group_of[usize::from(own)])
     }
 }
 
 /// Dithers an index map whose rows come from the top and whose texels have their nearest entries.
-pub(super) struct Ditherer<'a, S> {
+pub(super) struct Ditherer<'a> {
     table: Table<'a>,
-    method: Method<S>,
+    method: Method,
 }
 
-enum Method<S> {
+enum Method {
     None,
-    Diffusion(Diffusion<S>),
+    Diffusion(Diffusion),
     BlueNoise(Triangles),
 }
 
-impl<'a, S: Space> Ditherer<'a, S> {
+impl<'a> Ditherer<'a> {
     pub(super) fn new(method: Dither, size: (u32, u32), entries: &'a Entries, nearest: &'a Nearest) -> Self {
         let table = Table { entries, nearest, group_of: entries.groups() };
         let method = match method {
@@ -86,12 +86,7 @@ impl<'a, S: Space> Ditherer<'a, S> {
     }
 
     /// Takes the next rows; tells `done` of rows whose entries will not change any more, and of these entries.
-    pub(super) fn push(
-        &mut self,
-        rows: &Rows<'_, S>,
-        indices: &mut IndexMap,
-        done: &mut dyn FnMut(Rows<'_, S>, &[u16]),
-    ) {
+    pub(super) fn push(&mut self, rows: &Rows<'_>, indices: &mut IndexMap, done: &mut dyn FnMut(Rows<'_>, &[u16])) {
         let width = indices.width() as usize;
         let texels = indices.texels_mut();
         let own = rows.first..rows.first + rows.normals.len();

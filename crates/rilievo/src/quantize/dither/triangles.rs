@@ -81,8 +81,8 @@ impl Front<'_> {
         unit(self.entries.directions[entry as usize].map(f64::from))
     }
 
-    fn find(&self, direction: [f64; 3], hint: u32) -> u32 {
-        self.nearest.find(self.group, direction, Some((hint, self.entries.directions[hint as usize])))
+    fn find(&self, direction: [f64; 3]) -> u32 {
+        self.nearest.find(self.group, direction)
     }
 
     fn grow(&mut self, all: &mut Triangles) {
@@ -125,7 +125,7 @@ impl Front<'_> {
             let direction = self.entries.directions[e];
             let (other, distance2) = self.nearest.neighbour(self.group, e as u32, direction)?;
             // Of entries that are the same, searches only ever find the first.
-            let first = |entry| self.find(self.direction(entry), entry);
+            let first = |entry| self.find(self.direction(entry));
             (distance2 > 0.0).then(|| (first(e as u32), first(other)))
         })
     }
@@ -141,13 +141,13 @@ impl Front<'_> {
             return None;
         }
         let left = left.map(|c| c / length);
-        let mut c = self.find(left, a);
+        let mut c = self.find(left);
         if dot(left, self.direction(c)) < LEFT {
             return None;
         }
         for _ in 0..MOST_STEPS {
             let center = unit(cross(sub(end, start), sub(self.direction(c), start)));
-            let inside = self.find(center, c);
+            let inside = self.find(center);
             let direction = self.direction(inside);
             let is_closer = dot(center, direction) > dot(center, start) + 1e-12;
             if [a, b, c].contains(&inside) || !is_closer || dot(left, direction) < LEFT {
