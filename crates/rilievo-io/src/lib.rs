@@ -16,10 +16,10 @@ mod write;
 
 pub use error::{Action, Error, Result};
 pub use image::{
-    Depth, EmbeddedMaterials, EnvironmentImage, HeightImage, NormalImage, NormalRows, decode_environment,
-    decode_height, decode_materials, decode_normals, decode_normals_with_materials, decode_picture, encode_apng,
-    encode_gray_png8, encode_gray_png16, encode_normals_exr, encode_normals_png8, encode_normals_png16,
-    encode_picture_png, read_environment, repair_normals, sample_depth,
+    Depth, EmbeddedMaterials, EnvironmentImage, HeightImage, NormalImage, NormalRows, ReliefImage, decode_environment,
+    decode_height, decode_materials, decode_normals, decode_normals_with_materials, decode_picture, decode_relief,
+    encode_apng, encode_gray_png8, encode_gray_png16, encode_normals_exr, encode_normals_png8, encode_normals_png16,
+    encode_picture_png, looks_like_normals, read_environment, repair_normals, sample_depth,
 };
 pub use indexed::{
     AnyIndexed, AnyTable, ImportAs, IndexedFile, PalettePng, PaletteTable, SpaceKind, decode_indexed,
@@ -27,6 +27,6 @@ pub use indexed::{
 };
 pub use limits::Limits;
 pub use mesh::{MeshFile, decode_mesh};
-pub use probe::{is_indexed, is_palette_png, looks_like_normals};
+pub use probe::{is_indexed, is_palette_png};
 pub use source::Source;
 pub use write::write_atomic;

@@ -21,17 +21,20 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self {
-            max_side: 65_536,
-            max_texels: 1 << 28,
-            max_file_bytes: 8 << 30,
-            max_vertices: 1 << 26,
-            max_triangles: 1 << 27,
-        }
+        Self::DEFAULT
     }
 }
 
 impl Limits {
+    /// The limits by default.
+    pub const DEFAULT: Self = Self {
+        max_side: 65_536,
+        max_texels: 1 << 28,
+        max_file_bytes: 8 << 30,
+        max_vertices: 1 << 26,
+        max_triangles: 1 << 27,
+    };
+
     /// Checks a picture's size before anything is allocated for it; returns the number of texels.
     pub(crate) fn check_size(&self, name: &str, width: u64, height: u64) -> Result<usize> {
         if width == 0 || height == 0 {

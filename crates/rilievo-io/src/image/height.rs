@@ -29,8 +29,11 @@ pub struct HeightImage {
 /// [`Error::Format`] for a damaged file, a colour picture or values that are not finite; [`Error::Limits`];
 /// [`Error::Unsupported`].
 pub fn decode_height(source: &Source, limits: &Limits) -> Result<HeightImage> {
+    heights(source, &decode_raster(source, limits)?)
+}
+
+pub(super) fn heights(source: &Source, raster: &Raster) -> Result<HeightImage> {
     let name = source.name();
-    let raster = decode_raster(source, limits)?;
     if let Some(at) = raster.first_colored() {
         let reason = "red, green and blue differ: this looks like a colour picture or a normal map, not like heights; \
                       give a gray picture";
@@ -41,7 +44,7 @@ pub fn decode_height(source: &Source, limits: &Limits) -> Result<HeightImage> {
     let heights = match raster.samples() {
         Samples::U8(v) => v.chunks_exact(channels).map(|t| f32::from(t[0]) / 255.0).collect(),
         Samples::U16(v) => v.chunks_exact(channels).map(|t| f32::from(t[0]) / 65_535.0).collect(),
-        Samples::F32(v) => finite(name, &raster, v, covered.as_ref())?,
+        Samples::F32(v) => finite(name, raster, v, covered.as_ref())?,
     };
     let mut warnings = Vec::new();
     if raster.depth() == Depth::U8 && matches!(super::sniff(source.bytes()), Some(super::Format::Jpeg)) {

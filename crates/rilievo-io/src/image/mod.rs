@@ -21,6 +21,7 @@ mod picture;
 pub(crate) mod png;
 pub(crate) mod png_write;
 mod raster;
+mod relief;
 mod rows;
 mod tiff;
 
@@ -36,6 +37,7 @@ pub use png_write::{
     encode_apng, encode_gray_png8, encode_gray_png16, encode_normals_png8, encode_normals_png16, encode_picture_png,
 };
 pub use raster::Depth;
+pub use relief::{ReliefImage, decode_relief, looks_like_normals};
 pub use rows::NormalRows;
 
 use crate::error::{Error, Result};

@@ -43,7 +43,7 @@ impl<S: Space> NormalImage<S> {
 /// [`Error::Format`] for a damaged file, a gray one, or texels without direction (zero or not finite) where alpha is
 /// not zero; [`Error::Limits`]; [`Error::Unsupported`].
 pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits: &Limits) -> Result<NormalImage<S>> {
-    decode(source, convention, false, limits)
+    normals(source, &decode_raster(source, limits)?, convention, false)
 }
 
 /// As [`decode_normals`], but texels without direction get the normal of the nearest texel that has one (the map repeats),
@@ -52,11 +52,15 @@ pub fn decode_normals<S: Space>(source: &Source, convention: Convention, limits:
 /// # Errors
 /// As [`decode_normals`]; [`Error::Format`] if no texel has a direction.
 pub fn repair_normals<S: Space>(source: &Source, convention: Convention, limits: &Limits) -> Result<NormalImage<S>> {
-    decode(source, convention, true, limits)
+    normals(source, &decode_raster(source, limits)?, convention, true)
 }
 
-fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limits: &Limits) -> Result<NormalImage<S>> {
-    let raster = decode_raster(source, limits)?;
+pub(super) fn normals<S: Space>(
+    source: &Source,
+    raster: &Raster,
+    convention: Convention,
+    repair: bool,
+) -> Result<NormalImage<S>> {
     if !raster.has_color() {
         let reason = "a gray picture holds heights, not normals; make a normal map of it first";
         return Err(Error::format(source.name(), "header", reason));
@@ -67,22 +71,22 @@ fn decode<S: Space>(source: &Source, convention: Convention, repair: bool, limit
     let normals = match raster.samples() {
         Samples::U8(v) => {
             lengths.measure(v, raster.channels(), 0, inside.map(Grid::texels), |c| f32::from(c) / 127.5 - 1.0);
-            convert(&raster, v, inside, |c| convention.apply(decode_u8(c)))
+            convert(raster, v, inside, |c| convention.apply(decode_u8(c)))
         }
         Samples::U16(v) => {
             lengths.measure(v, raster.channels(), 0, inside.map(Grid::texels), |c| f32::from(c) / 32_767.5 - 1.0);
-            convert(&raster, v, inside, |c| convention.apply(decode_u16(c)))
+            convert(raster, v, inside, |c| convention.apply(decode_u16(c)))
         }
         Samples::F32(v) => {
-            let without = Directionless::find::<S>(&raster, v, inside);
+            let without = Directionless::find::<S>(raster, v, inside);
             if let (Some(without), false) = (&without, repair) {
                 return Err(Error::format(source.name(), raster.place(without.first), without.reason()));
             }
             lengths.measure(v, raster.channels(), 0, inside.map(Grid::texels), |c| c);
-            let mut normals = convert(&raster, v, inside, |c| convention.apply(Normal::new_or(c.into(), Normal::Z)));
+            let mut normals = convert(raster, v, inside, |c| convention.apply(Normal::new_or(c.into(), Normal::Z)));
             if let Some(without) = without {
-                normals = without.repair(source.name(), &raster, v, inside, normals)?;
-                repaired = Some(without.warning(&raster));
+                normals = without.repair(source.name(), raster, v, inside, normals)?;
+                repaired = Some(without.warning(raster));
             }
             normals
         }
