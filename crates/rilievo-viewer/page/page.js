@@ -1,7 +1,7 @@
 // Chooses between the viewer, which needs WebGPU or WebGL2, and the plain page, which needs neither.
 //
 // ?webgl: not WebGPU; ?cpu: the viewer, drawn by the CPU; ?plain: the plain page.
-import init, { start, Plain } from "./rilievo.js";
+import init, { prepare, start, Plain } from "./rilievo.js";
 
 const wishes = new URLSearchParams(location.search);
 const element = (id) => document.getElementById(id);
@@ -11,7 +11,7 @@ const message = (text) => {
 };
 
 async function hasGpu() {
-  if (!wishes.has("webgl") && navigator.gpu && (await navigator.gpu.requestAdapter().catch(() => null))) return true;
+  if (!wishes.has("webgl") && (await adapter)) return true;
   return !!document.createElement("canvas").getContext("webgl2");
 }
 
@@ -130,17 +130,22 @@ function plain(why) {
 
 element("message").addEventListener("click", () => message(""));
 
-// On its way while the module is.
+// All of these come while the module does: a worker, the font, the browser's process for the GPU.
+const module = fetch(new URL("rilievo_bg.wasm", import.meta.url));
+let worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+worker.onerror = () => (worker = undefined);
 const font = fetch(new URL("font.ttf", import.meta.url)).then((answer) => answer.arrayBuffer());
 font.catch(() => {});
+const adapter = navigator.gpu?.requestAdapter().catch(() => null);
 
 async function begin() {
   try {
-    await init({ module_or_path: new URL("rilievo_bg.wasm", import.meta.url) });
+    await init({ module_or_path: module });
   } catch (error) {
     // Old browsers, mostly: they do not know the instructions.
     return message(`This page needs a browser that runs WebAssembly with SIMD (${error})`);
   }
+  prepare(worker);
   if (wishes.has("plain")) return plain("");
   if (!(await hasGpu())) return plain("This browser has no GPU to draw with: the CPU draws.");
   try {

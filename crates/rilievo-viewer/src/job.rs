@@ -50,10 +50,16 @@ pub(crate) type Made = Arc<Mutex<Option<Result<Subject, String>>>>;
 pub struct Job {
     meter: Arc<Meter>,
     result: Made,
+    #[cfg(target_arch = "wasm32")]
+    hearer: Hearer,
     /// Nobody waits for what a job makes that is given up.
     #[cfg(target_arch = "wasm32")]
     _work: Option<crate::web::Work>,
 }
+
+/// Who is told that a job is done. A page begins its first one before there is anybody.
+#[cfg(target_arch = "wasm32")]
+type Hearer = std::rc::Rc<std::cell::RefCell<Box<dyn Fn()>>>;
 
 impl Job {
     /// Begins to make a subject; `done` is called when it is there.
@@ -77,12 +83,27 @@ impl Job {
         job
     }
 
-    /// Begins to make a subject; `done` is called when it is there.
+    /// Begins to make a subject, unless the page has begun it already; `done` is called when it is there.
     #[cfg(target_arch = "wasm32")]
     pub fn begin(recipe: &Recipe, done: impl Fn() + 'static) -> Self {
+        let job = crate::web::prepared(recipe).unwrap_or_else(|| Self::begin_unheard(recipe));
+        let is_made = job.result.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        if is_made {
+            done();
+        }
+        *job.hearer.borrow_mut() = Box::new(done);
+        job
+    }
+
+    /// Begins to make a subject for somebody to come.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn begin_unheard(recipe: &Recipe) -> Self {
         let (meter, result): (Arc<Meter>, Made) = Default::default();
-        let work = crate::web::begin(recipe, Arc::clone(&meter), Arc::clone(&result), Box::new(done));
-        Self { meter, result, _work: work }
+        let hearer = Hearer::new(std::cell::RefCell::new(Box::new(|| ())));
+        let tell = std::rc::Rc::clone(&hearer);
+        let done = Box::new(move || tell.borrow()());
+        let work = crate::web::begin(recipe, Arc::clone(&meter), Arc::clone(&result), done);
+        Self { meter, result, hearer, _work: work }
     }
 
     /// How far it is.

@@ -19,4 +19,4 @@ pub use app::{Font, Start, Viewer};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::run;
 #[cfg(target_arch = "wasm32")]
-pub use web::{Plain, start, work};
+pub use web::{Plain, prepare, start, work};

@@ -127,8 +127,8 @@ impl Pane {
             }
         }
         let Some(picture) = self.cpu.picture() else { return false };
-        let bytes: Vec<u8> = picture.texels().iter().flat_map(|p| [p.r, p.g, p.b, p.a]).collect();
-        let image = egui::ColorImage::from_rgba_unmultiplied([size.0 as usize, size.1 as usize], &bytes);
+        let bytes = bytemuck::cast_slice(picture.texels());
+        let image = egui::ColorImage::from_rgba_unmultiplied([size.0 as usize, size.1 as usize], bytes);
         match &mut self.handle {
             Some(handle) => handle.set(image, TextureOptions::NEAREST),
             None => self.handle = Some(context.load_texture("picture", image, TextureOptions::NEAREST)),

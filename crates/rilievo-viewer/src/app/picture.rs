@@ -107,7 +107,7 @@ impl Viewer {
                 });
             });
         // Often enough to be seen to move; where the GPU is software, each frame is taken from the work.
-        context.request_repaint_after(std::time::Duration::from_millis(200));
+        context.request_repaint_after(std::time::Duration::from_millis(400));
     }
 }
 

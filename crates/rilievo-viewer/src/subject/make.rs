@@ -10,18 +10,23 @@ use rilievo::surface::{Deflect, Deflected, Frame, Mesh, deflect_heights, deflect
 use rilievo::{
     Convention, Edges, Grid, MaterialMap, MipChain, NormalMap, Object as ObjectSpace, Progress, QuantizedMap, Tangent,
 };
-use rilievo_io::{self as io, AnyIndexed, ImportAs, Limits, Source};
+use rilievo_io::{self as io, AnyIndexed, ImportAs, Limits, NormalImage, ReliefImage, Source};
 
 use super::{Heights, Sample, Subject, Tangents};
 
 /// Width of the samples' maps.
 const SAMPLE_WIDTH: u32 = 1024;
 /// Width of those that are made first where there is one thread and somebody waits.
-const PREVIEW_WIDTH: u32 = 512;
+const PREVIEW_WIDTH: u32 = 384;
 /// Width and height of a map that is made of a mesh's own normals.
 const OWN_SIZE: (u32, u32) = (1024, 1024);
 /// The smallest map that is bent onto a mesh, unless the file's is larger.
 const LEAST_BENT: u32 = 512;
+
+/// What a map may have at most. Making one takes some 60 bytes a texel, and a page has 4 GiB, the two copies of the file
+/// among them.
+const LIMITS: Limits =
+    Limits { max_texels: if cfg!(target_arch = "wasm32") { 1 << 25 } else { 1 << 28 }, ..Limits::DEFAULT };
 
 /// A file that was opened or dropped.
 #[derive(Debug, Clone)]
@@ -63,7 +68,7 @@ impl Surface {
             Self::Sphere => shapes::sphere(128, 64),
             Self::Torus => shapes::torus(96, 48, 1.0, 0.45),
             Self::Mesh(file) => {
-                let read = io::decode_mesh(&file.source(), &Limits::default()).map_err(told)?;
+                let read = io::decode_mesh(&file.source(), &LIMITS).map_err(told)?;
                 notes.extend(read.warnings);
                 Ok(read.mesh)
             }
@@ -214,32 +219,22 @@ fn from_mesh(recipe: &Recipe, progress: &dyn Progress) -> Result<Subject, String
 }
 
 fn from_map(recipe: &Recipe, file: &File, progress: &dyn Progress) -> Result<Subject, String> {
-    let (source, limits) = (file.source(), Limits::default());
+    let (source, limits) = (file.source(), &LIMITS);
     progress.begin("reading", 1);
     if io::is_indexed(&source) {
         return from_indexed(recipe, file, &source);
     }
-    let mut notes = Vec::new();
-    if io::looks_like_normals(&source, &limits) {
-        let image = io::decode_normals::<Tangent>(&source, recipe.convention, &limits).map_err(told)?;
-        progress.advance(1);
-        notes.extend(image.warnings);
-        let mesh = with_uvs(recipe.surface.mesh(image.normals.size(), &mut notes)?)?;
-        if let Some(frame) = flat_frame(recipe, &mesh) {
-            return lie_flat(recipe, file, (mesh, &frame), (image.normals, None, image.covered), notes, progress);
-        }
-        let options = Deflect::new(bent_size(image.normals.size()));
-        let bent = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress).map_err(told)?;
-        let tangent = normal_levels(image.normals, None, image.covered.as_ref()).map_err(told)?;
-        return close(recipe, file, (mesh, bent, Tangents::of_levels(tangent)), notes, progress);
-    }
-    let image = io::decode_height(&source, &limits).map_err(|error| {
+    let relief = io::decode_relief::<Tangent>(&source, recipe.convention, limits).map_err(|error| {
         format!(
             "{error} (formats: PNG, JPEG, TIFF, EXR, NPY for heights and normals; indexed PNG, KTX2; OBJ, PLY, GLB)"
         )
     })?;
     progress.advance(1);
-    notes.extend(image.warnings);
+    let image = match relief {
+        ReliefImage::Heights(image) => image,
+        ReliefImage::Normals(image) => return from_normals(recipe, file, image, progress),
+    };
+    let mut notes = image.warnings;
     let height = HeightMap::new(image.heights, recipe.depth).map_err(told)?;
     let size = height.heights().size();
     let mesh = with_uvs(recipe.surface.mesh(size, &mut notes)?)?;
@@ -251,6 +246,23 @@ fn from_map(recipe: &Recipe, file: &File, progress: &dyn Progress) -> Result<Sub
     let heights = Heights { map: height, materials: None, covered: image.covered };
     let tangents = Tangents::of_heights(heights).map_err(told)?;
     close(recipe, file, (mesh, bent, tangents), notes, progress)
+}
+
+fn from_normals(
+    recipe: &Recipe,
+    file: &File,
+    image: NormalImage<Tangent>,
+    progress: &dyn Progress,
+) -> Result<Subject, String> {
+    let mut notes = image.warnings;
+    let mesh = with_uvs(recipe.surface.mesh(image.normals.size(), &mut notes)?)?;
+    if let Some(frame) = flat_frame(recipe, &mesh) {
+        return lie_flat(recipe, file, (mesh, &frame), (image.normals, None, image.covered), notes, progress);
+    }
+    let options = Deflect::new(bent_size(image.normals.size()));
+    let bent = deflect_normals(&mesh, &image.normals, image.covered.as_ref(), &options, progress).map_err(told)?;
+    let tangent = normal_levels(image.normals, None, image.covered.as_ref()).map_err(told)?;
+    close(recipe, file, (mesh, bent, Tangents::of_levels(tangent)), notes, progress)
 }
 
 /// The frame of a flat sheet that its map covers once: there is nothing to bend.
@@ -296,7 +308,7 @@ fn close(
 
 fn from_indexed(recipe: &Recipe, file: &File, source: &Source) -> Result<Subject, String> {
     let import = ImportAs { space: None, convention: Some(recipe.convention) };
-    let read = io::decode_indexed(source, &import, &Limits::default()).map_err(told)?;
+    let read = io::decode_indexed(source, &import, &LIMITS).map_err(told)?;
     let mut notes = read.warnings;
     let mesh = with_uvs(recipe.surface.mesh(read.map.size(), &mut notes)?)?;
     let indexed: QuantizedMap<ObjectSpace> = match read.map {
@@ -364,6 +376,30 @@ fn finish(
 mod tests {
     use super::*;
     use rilievo::progress::Silent;
+
+    #[test]
+    fn bad_files_are_refused_by_name_and_reason() {
+        let refused = |name: &str, bytes: Vec<u8>| {
+            let map = Some(File { name: name.to_owned(), bytes: bytes.into() });
+            let why = make(&Recipe { sample: None, map, ..Recipe::default() }, &Silent).err().unwrap();
+            assert!(why.contains(name), "{why}");
+            why
+        };
+        let png = io::encode_gray_png16(&Grid::from_fn(9, 9, |x, y| (x * y) as f32 / 64.0).unwrap()).unwrap();
+        assert!(refused("empty.png", Vec::new()).contains("empty"));
+        assert!(refused("notes.txt", b"Not a map of anything.".to_vec()).contains("EXR"));
+        refused("cut.png", png[..png.len() / 2].to_vec());
+        let array = |shape: &str, values: &[f32]| {
+            let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({shape}), }}\n");
+            let length = (header.len() as u16).to_le_bytes();
+            let values = values.iter().flat_map(|v| v.to_le_bytes());
+            b"\x93NUMPY\x01\x00".iter().copied().chain(length).chain(header.into_bytes()).chain(values).collect()
+        };
+        let why = refused("huge.npy", array("65536, 65536", &[0.5; 4]));
+        assert!(why.contains("65536 × 65536") && why.contains("limit"), "{why}");
+        let why = refused("holes.npy", array("2, 2", &[0.1, 0.2, f32::NAN, 0.3]));
+        assert!(why.contains("texel (0, 1)"), "{why}");
+    }
 
     #[test]
     fn a_flat_sheet_needs_no_bending() {

@@ -11,9 +11,9 @@ mod words;
 mod worker;
 
 #[cfg(target_arch = "wasm32")]
-pub use page::start;
+pub use page::{prepare, start};
 #[cfg(target_arch = "wasm32")]
-pub(crate) use page::{remember, tell_lost};
+pub(crate) use page::{prepared, remember, tell_lost};
 #[cfg(target_arch = "wasm32")]
 pub use plain::Plain;
 #[cfg(target_arch = "wasm32")]

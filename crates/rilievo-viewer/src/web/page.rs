@@ -7,11 +7,33 @@ use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 use eframe::{WebOptions, WebRunner};
 use rilievo_gpu::Gpu;
 use wasm_bindgen::prelude::*;
-use web_sys::HtmlCanvasElement;
+use web_sys::{HtmlCanvasElement, Worker};
 
+use super::worker;
 use crate::app::{Font, Start, Viewer};
+use crate::job::Job;
 use crate::look::Look;
 use crate::subject::Recipe;
+
+thread_local! {
+    /// What a page shows first, in the making.
+    static FIRST: RefCell<Option<(Recipe, Job)>> = const { RefCell::new(None) };
+}
+
+/// Begins to make what is shown first: a page need not wait for a device to draw with. `worker` runs the page's script for
+/// workers; without one there will be one.
+#[wasm_bindgen]
+pub fn prepare(worker: Option<Worker>) {
+    worker::keep(worker);
+    let recipe = Recipe::default().preview();
+    let job = Job::begin_unheard(&recipe);
+    FIRST.set(Some((recipe, job)));
+}
+
+/// What was begun already, if it is this.
+pub(crate) fn prepared(recipe: &Recipe) -> Option<Job> {
+    FIRST.take().filter(|(first, _)| first.is_made_as(recipe)).map(|(_, job)| job)
+}
 
 /// Starts the viewer on a canvas, with a font.
 ///

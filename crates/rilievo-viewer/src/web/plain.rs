@@ -6,9 +6,8 @@ use rilievo::raster::TextureFilter;
 use wasm_bindgen::prelude::*;
 
 use super::page::shown;
-use super::{Work, begin};
 use crate::canvas::{CpuSide, Set};
-use crate::job::{Made, Meter};
+use crate::job::Job;
 use crate::look::{Lamp, Look, Orbit, Way};
 use crate::subject::{File, Recipe, Subject};
 
@@ -23,9 +22,7 @@ pub struct Plain {
     side: CpuSide,
     set: Option<Arc<Set>>,
     milliseconds: f64,
-    meter: Arc<Meter>,
-    made: Made,
-    work: Option<Work>,
+    job: Option<Job>,
     refines: bool,
 }
 
@@ -48,7 +45,6 @@ impl Plain {
             (Recipe::default().preview(), look)
         });
         look.other = None;
-        let (meter, made) = Default::default();
         let side = CpuSide::default();
         Self {
             made_by: recipe.clone(),
@@ -58,9 +54,7 @@ impl Plain {
             side,
             set: None,
             milliseconds: 0.0,
-            meter,
-            made,
-            work: None,
+            job: None,
             refines: false,
         }
     }
@@ -68,10 +62,8 @@ impl Plain {
     /// Begins to make what is to be seen, instead of what is being made.
     pub fn make(&mut self) {
         // What comes is asked for by `take`.
-        let done = Box::new(|| ());
-        (self.meter, self.made) = Default::default();
+        self.job = Some(Job::begin(&self.recipe, || ()));
         self.refines = false;
-        self.work = begin(&self.recipe, Arc::clone(&self.meter), Arc::clone(&self.made), done);
     }
 
     /// Takes in a file; `make` comes next.
@@ -81,18 +73,18 @@ impl Plain {
 
     /// The stage of the work.
     pub fn stage(&self) -> String {
-        self.meter.read().0
+        self.progress().0
     }
 
     /// The share of the stage that is done.
     pub fn share(&self) -> f32 {
-        self.meter.read().1
+        self.progress().1
     }
 
     /// Takes what was made, if it is there, and says what went wrong with it: an empty text if nothing did.
     pub fn take(&mut self) -> Option<String> {
-        let made = self.made.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take()?;
-        (self.work, self.refines) = (None, false);
+        let made = self.job.as_ref().and_then(Job::take)?;
+        (self.job, self.refines) = (None, false);
         match made {
             Ok(subject) => {
                 let finishes = subject.finishes();
@@ -173,11 +165,17 @@ impl Plain {
         let times = self.side.draw(&set, &self.look, size)?;
         self.milliseconds = times.draw.map_or(0.0, |t| t.as_secs_f64() * 1e3);
         let picture = self.side.picture().ok_or("nothing was drawn")?;
-        Ok(picture.texels().iter().flat_map(|p| [p.r, p.g, p.b, p.a]).collect())
+        Ok(bytemuck::cast_slice(picture.texels()).to_vec())
     }
 
     /// What the last frame took.
     pub fn milliseconds(&self) -> f64 {
         self.milliseconds
+    }
+}
+
+impl Plain {
+    fn progress(&self) -> (String, f32) {
+        self.job.as_ref().map(|job| job.meter().read()).unwrap_or_default()
     }
 }

@@ -66,6 +66,16 @@ impl Progress for Teller {
     }
 }
 
+thread_local! {
+    /// A worker without work.
+    static SPARE: RefCell<Option<Worker>> = const { RefCell::new(None) };
+}
+
+/// Keeps a worker for the next work.
+pub(super) fn keep(worker: Option<Worker>) {
+    SPARE.set(worker);
+}
+
 /// A worker at work; dropped, it stops.
 pub(crate) struct Work {
     worker: Worker,
@@ -97,9 +107,12 @@ fn put(result: &Made, made: Result<Subject, String>) {
 }
 
 fn try_begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn Fn()>) -> Result<Work, JsValue> {
-    let options = WorkerOptions::new();
-    options.set_type(WorkerType::Module);
-    let worker = Worker::new_with_options("./worker.js", &options)?;
+    let new = || {
+        let options = WorkerOptions::new();
+        options.set_type(WorkerType::Module);
+        Worker::new_with_options("./worker.js", &options)
+    };
+    let worker = SPARE.take().map_or_else(new, Ok)?;
     let done: Rc<dyn Fn()> = done.into();
     let (failed, done_too) = (Arc::clone(&result), Rc::clone(&done));
     let hear = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
