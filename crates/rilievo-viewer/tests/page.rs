@@ -4,35 +4,32 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "tests fail loudly")]
 
-use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 
+use rilievo::Grid;
 use rilievo::color::Picture;
-use rilievo::{Grid, Rgba8};
 use testkit::browser::{Browser, Server};
+use testkit::eye::Part;
 
 fn seen(browser: &mut Browser) -> Picture {
     let source = rilievo_io::Source::from_bytes("screenshot", browser.screenshot());
     rilievo_io::decode_picture(&source, &rilievo_io::Limits::default()).unwrap()
 }
 
-/// Pixels of clay in a part of a picture.
-fn count_warm(picture: &Picture, across: Range<u32>, down: Range<u32>) -> usize {
-    let at = down.flat_map(|y| across.clone().map(move |x| (x, y)));
-    at.filter(|&at| i32::from(picture[at].r) > i32::from(picture[at].b) + 24).count()
+/// The picture, left of the panel.
+fn stage(picture: &Picture) -> Part {
+    Part { across: 20..picture.width() - 320, down: 40..picture.height() - 60 }
 }
 
-/// Pixels of clay, left of the panel.
+/// Pixels of clay there.
 fn warm(picture: &Picture) -> usize {
-    count_warm(picture, 20..picture.width() - 320, 40..picture.height() - 60)
+    stage(picture).warm(picture).len()
 }
 
-/// Pixels there that differ by more than rounding.
+/// Pixels there that differ.
 fn changed(a: &Picture, b: &Picture) -> usize {
-    let off = |a: Rgba8, b: Rgba8| a.rgb().iter().zip(b.rgb()).any(|(&a, b)| a.abs_diff(b) > 6);
-    let at = (40..a.height() - 60).flat_map(|y| (20..a.width() - 320).map(move |x| (x, y)));
-    at.filter(|&at| off(a[at], b[at])).count()
+    stage(a).changed(a, b)
 }
 
 /// Waits until something is to be seen; gives the picture once it is still.
@@ -234,7 +231,9 @@ fn in_the_hand() {
     let Some(mut browser) = Browser::start_in_hand([390, 844]) else { return };
     let server = Server::start();
     browser.go_to(server.address());
-    let first = wait_for(&mut browser, "the vase", |p| count_warm(p, 0..p.width(), 0..p.height() / 2) > 5_000);
+    let first = wait_for(&mut browser, "the vase", |p| {
+        Part { across: 0..p.width(), down: 0..p.height() / 2 }.warm(p).len() > 5_000
+    });
     keep(&first, "hand");
     assert_eq!(first.size(), (780, 1688));
     browser.swipe([120.0, 200.0], [240.0, 220.0]);

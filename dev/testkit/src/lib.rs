@@ -5,6 +5,7 @@ pub mod browser;
 mod data;
 #[cfg(target_os = "linux")]
 pub mod display;
+pub mod eye;
 pub mod golden;
 mod lengths;
 mod npy;

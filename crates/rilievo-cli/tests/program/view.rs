@@ -4,9 +4,9 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use rilievo::Rgba8;
 use rilievo::color::Picture;
 use testkit::display::Display;
+use testkit::eye::Part;
 
 use crate::runner::Room;
 
@@ -14,8 +14,8 @@ use crate::runner::Room;
 const LEFT: u8 = 1;
 /// Button that moves the light.
 const RIGHT: u8 = 3;
-/// Where the picture is, left of the panel: columns and rows.
-const STAGE: [std::ops::Range<u32>; 2] = [40..860, 60..720];
+/// Where the picture is, left of the panel.
+const STAGE: Part = Part { across: 40..860, down: 60..720 };
 
 /// The window, closed with the test.
 struct Window(Child);
@@ -40,28 +40,14 @@ fn open(display: &Display, room: &Room, arguments: &str) -> Window {
     Window(child)
 }
 
-/// Where the stage shows something warm: bricks and clay, not the gray ground.
-fn warm(picture: &Picture) -> Vec<(u32, u32)> {
-    let [columns, rows] = STAGE;
-    let at = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
-    at.filter(|&at| i32::from(picture[at].r) > i32::from(picture[at].b) + 24).collect()
-}
-
 fn is_drawn(picture: &Picture) -> bool {
-    warm(picture).len() > 40_000
+    STAGE.warm(picture).len() > 40_000
 }
 
 fn brightness(picture: &Picture) -> f64 {
-    let warm = warm(picture);
+    let warm = STAGE.warm(picture);
     let sum: f64 = warm.iter().map(|&at| f64::from(picture[at].r)).sum();
     sum / warm.len().max(1) as f64
-}
-
-/// Pixels of the stage that differ by more than rounding.
-fn changed(a: &Picture, b: &Picture) -> usize {
-    let [columns, rows] = STAGE;
-    let off = |a: Rgba8, b: Rgba8| a.rgb().iter().zip(b.rgb()).any(|(&a, b)| a.abs_diff(b) > 6);
-    rows.flat_map(|y| columns.clone().map(move |x| (x, y))).filter(|&at| off(a[at], b[at])).count()
 }
 
 /// Pictures for the eye, in a folder that is named by the environment.
@@ -79,7 +65,7 @@ fn until_changed(display: &Display, from: &Picture, least: usize, what: &str, ac
         act();
         let start = Instant::now();
         while start.elapsed() < Duration::from_secs(4) {
-            if changed(from, &display.picture()) > least {
+            if STAGE.changed(from, &display.picture()) > least {
                 return display.wait_until_still();
             }
             std::thread::sleep(Duration::from_millis(150));
@@ -101,20 +87,24 @@ fn uses(extra: &str, name: &str) {
     let drag = || display.drag(RIGHT, (300, 400), (420, 400));
     let relit = until_changed(&display, &first, 20_000, "the light moves", drag);
     keep(&relit, &format!("{name}-relit.png"));
-    assert!(changed(&first, &relit) > 20_000, "{name}: the light moves {} pixels", changed(&first, &relit));
-    let outline = warm(&first).len() as f64 / warm(&relit).len() as f64;
+    assert!(STAGE.changed(&first, &relit) > 20_000, "{name}: the light moves {} pixels", STAGE.changed(&first, &relit));
+    let outline = STAGE.warm(&first).len() as f64 / STAGE.warm(&relit).len() as f64;
     assert!((0.7..1.4).contains(&outline), "{name}: the object stays where it is, {outline}");
 
     let drag = || display.drag(LEFT, (300, 400), (380, 430));
     let turned = until_changed(&display, &relit, 20_000, "the object turns", drag);
     keep(&turned, &format!("{name}-turned.png"));
-    assert!(changed(&relit, &turned) > 20_000, "{name}: the object turns");
+    assert!(STAGE.changed(&relit, &turned) > 20_000, "{name}: the object turns");
 
     // Key 2 is the exact method: nearly the same picture, and not the same.
     let exact = until_changed(&display, &turned, 100, "the method changes", || display.key(u32::from(b'2')));
     keep(&exact, &format!("{name}-exact.png"));
     let off = (brightness(&exact) - brightness(&turned)).abs();
-    assert!(changed(&turned, &exact) > 100 && off < 8.0, "{name}: {} pixels, {off}", changed(&turned, &exact));
+    assert!(
+        STAGE.changed(&turned, &exact) > 100 && off < 8.0,
+        "{name}: {} pixels, {off}",
+        STAGE.changed(&turned, &exact)
+    );
 }
 
 #[test]
