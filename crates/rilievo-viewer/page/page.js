@@ -31,6 +31,7 @@ function plain(why) {
   running = true;
   element("viewer").remove();
   element("state").remove();
+  element("wait").remove();
   element("plain").hidden = false;
   message(why);
   const picture = element("picture");

@@ -139,9 +139,15 @@ fn uses(mut browser: Browser, kind: Kind, wish: &str, name: &str) {
     assert!(off[0] > 200, "{name}: another method draws another picture: {off:?}; {said}");
     assert!(changed(&turned, &exact) < 40_000, "{name}: the same object: {}", changed(&turned, &exact));
 
+    let bar = if kind == Kind::Viewer { "wait" } else { "work" };
+    browser.eval(&format!(
+        "globalThis.waited = false; globalThis.bar = document.getElementById('{bar}'); \
+         new MutationObserver(() => waited ||= !bar.hidden).observe(bar, {{ attributes: true }})"
+    ));
     browser.drop_file("hills.png", &hills(256));
     let hills = wait_for(&mut browser, "the hills", |p| warm(p) < 2_000 && changed(p, &turned) > 20_000);
     keep(&hills, &format!("{name}-hills"));
+    assert_eq!(browser.eval("[waited, bar.hidden].join()"), "true,true", "{name}: a bar tells how far the work is");
 
     browser.drop_file("notes.txt", b"Not a map of anything, nor a mesh.");
     let said = wait_for_words(&mut browser, "notes.txt");

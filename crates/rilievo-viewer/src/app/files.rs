@@ -103,7 +103,7 @@ mod in_browser {
     use web_sys::{Blob, HtmlAnchorElement, HtmlInputElement, Url};
 
     use super::{Inbox, OPEN_HINT};
-    use crate::app::Viewer;
+    use crate::app::{Viewer, wake};
     use crate::subject::File;
 
     impl Inbox {
@@ -115,7 +115,7 @@ mod in_browser {
                     let name = dropped.path().to_string_lossy().into_owned();
                     let read = dropped.bytes_async().await.map_err(|why| format!("{name}: {why}"));
                     inbox.put(read.map(|bytes| File { name, bytes: bytes.into() }));
-                    context.request_repaint();
+                    wake(&context);
                 });
             }
         }
@@ -169,7 +169,7 @@ mod in_browser {
                 let read = read.map(|buffer| Uint8Array::new(&buffer).to_vec());
                 let read = read.map_err(|why| format!("{name}: {why:?}"));
                 inbox.put(read.map(|bytes| File { name, bytes: bytes.into() }));
-                context.request_repaint();
+                wake(&context);
             });
         });
         input.set_onchange(Some(change.unchecked_ref()));

@@ -18,7 +18,7 @@ use web_time::Instant;
 
 use self::files::Inbox;
 use self::pane::Pane;
-use crate::job::Job;
+use crate::job::{Job, Meter};
 use crate::look::{Lamp, Look, Orbit, Way};
 use crate::subject::{File, Recipe, Subject};
 
@@ -109,6 +109,11 @@ fn fonts(font: FontData) -> FontDefinitions {
     fonts
 }
 
+/// Asks for a frame, as something has come. Asked for one at once, egui draws two; where the GPU is software, each takes long.
+fn wake(context: &egui::Context) {
+    context.request_repaint_after(std::time::Duration::from_millis(1));
+}
+
 /// The viewer.
 pub struct Viewer {
     recipe: Recipe,
@@ -197,7 +202,9 @@ impl Viewer {
     /// Begins to make what the recipe says.
     fn make(&mut self, context: &egui::Context) {
         let again = context.clone();
-        self.job = Some(Job::begin(&self.recipe, move || again.request_repaint()));
+        self.job = Some(Job::begin(&self.recipe, move || wake(&again)));
+        #[cfg(target_arch = "wasm32")]
+        crate::web::progress::show(self.awaited());
     }
 
     fn poll(&mut self, context: &egui::Context) {
@@ -213,6 +220,8 @@ impl Viewer {
         }
         let Some(made) = self.job.as_ref().and_then(Job::take) else { return };
         self.job = None;
+        #[cfg(target_arch = "wasm32")]
+        crate::web::progress::show(None);
         match made {
             Ok(subject) => {
                 self.made_by = self.recipe.clone();
@@ -235,6 +244,11 @@ impl Viewer {
     /// Whether what is being made is what is seen already, in more detail.
     fn refines(&self) -> bool {
         self.job.is_some() && self.made_by.refined().is_some_and(|refined| refined.is_made_as(&self.recipe))
+    }
+
+    /// How far the work is that somebody waits for.
+    fn awaited(&self) -> Option<&Meter> {
+        self.job.as_ref().filter(|_| !self.refines()).map(Job::meter)
     }
 
     fn show(&mut self, subject: Subject) {
@@ -440,8 +454,8 @@ impl eframe::App for Viewer {
         egui::CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
         #[cfg(target_arch = "wasm32")]
         self.tell(&context);
-        let stage = self.job.as_ref().filter(|_| !self.refines()).map(|job| job.meter().read());
-        if let Some((stage, share)) = stage {
+        #[cfg(not(target_arch = "wasm32"))]
+        if let Some((stage, share)) = self.awaited().map(Meter::read) {
             self.waiting(&context, &stage, share);
         }
     }

@@ -94,7 +94,8 @@ impl Viewer {
         painter.text(corner, align, way.name(), FontId::proportional(15.0), ui.visuals().strong_text_color());
     }
 
-    /// How far the making of a subject is.
+    /// How far the making of a subject is. A page tells it beside the picture.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn waiting(&self, context: &egui::Context, stage: &str, share: f32) {
         egui::Area::new(egui::Id::unique("waiting"))
             .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
@@ -106,8 +107,8 @@ impl Viewer {
                     ui.add(egui::ProgressBar::new(share.clamp(0.0, 1.0)));
                 });
             });
-        // Often enough to be seen to move; where the GPU is software, each frame is taken from the work.
-        context.request_repaint_after(std::time::Duration::from_millis(400));
+        // Often enough to be seen to move.
+        context.request_repaint_after(std::time::Duration::from_millis(200));
     }
 }
 

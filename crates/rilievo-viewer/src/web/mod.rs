@@ -4,6 +4,8 @@
 mod page;
 #[cfg(target_arch = "wasm32")]
 mod plain;
+#[cfg(target_arch = "wasm32")]
+pub(crate) mod progress;
 mod wire;
 #[cfg(target_arch = "wasm32")]
 mod words;

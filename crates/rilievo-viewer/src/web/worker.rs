@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::js_sys::{Array, Function, Object, Reflect, Uint8Array};
 use web_sys::{Event, MessageEvent, Worker, WorkerOptions, WorkerType};
 
-use super::wire;
+use super::{progress, wire};
 use crate::job::{Made, Meter};
 use crate::subject::{Recipe, Subject, make};
 
@@ -120,6 +120,7 @@ fn try_begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn Fn(
         let part = |name: &str| Reflect::get(&data, &name.into()).unwrap_or(JsValue::UNDEFINED);
         if let Some(stage) = part("stage").as_string() {
             meter.set(&stage, part("share").as_f64().unwrap_or(0.0) as f32);
+            progress::tell(&meter);
             return;
         }
         put(
