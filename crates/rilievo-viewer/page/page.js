@@ -11,8 +11,9 @@ const message = (text) => {
 };
 
 async function hasGpu() {
-  if (!wishes.has("webgl") && (await adapter)) return true;
-  return !!document.createElement("canvas").getContext("webgl2");
+  if (!wishes.has("webgl") && (await navigator.gpu?.requestAdapter().catch(() => null))) return true;
+  // The context that the viewer will have, with the attributes it will ask for: making one takes long without a real GPU.
+  return !!element("viewer").getContext("webgl2", { antialias: false });
 }
 
 async function viewer() {
@@ -131,13 +132,12 @@ function plain(why) {
 
 element("message").addEventListener("click", () => message(""));
 
-// All of these come while the module does: a worker, the font, the browser's process for the GPU.
+// All of these come while the module does. A GPU is asked for later: the browser may stop the page until it has one.
 const module = fetch(new URL("rilievo_bg.wasm", import.meta.url));
 let worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
 worker.onerror = () => (worker = undefined);
 const font = fetch(new URL("font.ttf", import.meta.url)).then((answer) => answer.arrayBuffer());
 font.catch(() => {});
-const adapter = navigator.gpu?.requestAdapter().catch(() => null);
 
 async function begin() {
   try {

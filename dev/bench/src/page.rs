@@ -44,7 +44,7 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
     let map = rilievo_io::encode_gray_png16(&rough(SIDE)?)?;
     let server = Server::start();
     for mode in MODES {
-        let mut loads = Vec::new();
+        let (mut loads, mut drops, mut stops) = (Vec::new(), Vec::new(), Vec::new());
         let mut last = None;
         for _ in 0..rounds.min(5) {
             // One at a time.
@@ -56,29 +56,22 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
             browser.before(SPY);
             browser.go_to(&format!("{}{}", server.address(), mode.query));
             loads.push(wait(&mut browser, &mode, 0.0, "")?);
+            browser.take_in_hand("relief.png", &map);
+            sleep(Duration::from_secs(1));
+            let start = browser.let_go();
+            let end = wait(&mut browser, &mode, start, "relief")?;
+            drops.push(end - start / 1e3);
+            let longest = browser.eval(&format!(
+                "frames.filter((t) => t > {start} && t < {end}).reduce(([g, l], t) => [Math.max(g, t - l), t], [0, {start}])[0]",
+                end = end * 1e3
+            ));
+            stops.push(longest.as_f64().context("frames")? / 1e3);
             last = Some(browser);
         }
         let Some(mut browser) = last else { continue };
-        loads.sort_by(f64::total_cmp);
-        add(report, format!("page/{}-load", mode.name), loads[loads.len() / 2], LOADED, "to the first lit frame")?;
-        browser.take_in_hand("relief.png", &map);
-        sleep(Duration::from_secs(1));
-        let start = browser.let_go();
-        let end = wait(&mut browser, &mode, start, "relief")?;
-        let seconds = end - start / 1e3;
-        add(report, format!("page/{}-drop", mode.name), seconds, RELIT, "a height map of 2048 × 2048 to its surface")?;
-        let longest = browser.eval(&format!(
-            "frames.filter((t) => t > {start} && t < {end}).reduce(([g, l], t) => [Math.max(g, t - l), t], [0, {start}])[0]",
-            end = end * 1e3
-        ));
-        let longest = longest.as_f64().context("frames")? / 1e3;
-        add(
-            report,
-            format!("page/{}-stop", mode.name),
-            longest,
-            RESPONSIVE,
-            "the longest time without a frame meanwhile",
-        )?;
+        add(report, &mode, "load", loads, LOADED, "to the first lit frame")?;
+        add(report, &mode, "drop", drops, RELIT, "a height map of 2048 × 2048 to its surface")?;
+        add(report, &mode, "stop", stops, RESPONSIVE, "the longest time without a frame meanwhile")?;
         frames(&mut browser, &mode, report)?;
     }
     Ok(())
@@ -92,7 +85,10 @@ fn start(mode: &Mode) -> Option<Browser> {
     }
 }
 
-fn add(report: &mut Report, name: String, ours: f64, limit: f64, note: &str) -> Result<()> {
+/// Adds the median of some seconds.
+fn add(report: &mut Report, mode: &Mode, what: &str, mut seconds: Vec<f64>, limit: f64, note: &str) -> Result<()> {
+    seconds.sort_by(f64::total_cmp);
+    let (name, ours) = (format!("page/{}-{what}", mode.name), seconds[seconds.len() / 2]);
     let note = format!("{note}; peer is the limit");
     report.add(&Case { target: Some(1.0), note, ..Case::new(name, Unit::Seconds, ours, Some(limit)) })
 }
