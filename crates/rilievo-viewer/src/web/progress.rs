@@ -8,7 +8,7 @@ use web_time::{Duration, Instant};
 
 use crate::job::Meter;
 
-/// How often the element changes. It is seen to move, and little is taken from the work.
+/// How often a share changes. It is seen to move, and little is taken from the work.
 const PACE: Duration = Duration::from_millis(300);
 
 thread_local! {
@@ -22,22 +22,22 @@ fn element(id: &str) -> Option<Element> {
 /// Shows how far a work is from now on, or nothing.
 pub(crate) fn show(meter: Option<&Meter>) {
     let Some(wait) = element("wait") else { return };
-    // The page's own script stands for these names.
+    // No browser refuses these names.
     let _ = wait.toggle_attribute_with_force("hidden", meter.is_none());
     LAST.set(None);
     meter.into_iter().for_each(tell);
 }
 
-/// Tells how far a work is.
+/// Tells how far a work is: its stage at once, its share now and then.
 pub(super) fn tell(meter: &Meter) {
-    let now = Instant::now();
-    if LAST.get().is_some_and(|last| now - last < PACE) {
+    let (Some(text), Some(bar)) = (element("stage"), element("share")) else { return };
+    let (stage, share) = meter.read();
+    let stage = if stage.is_empty() { "beginning" } else { &stage };
+    let (now, is_new) = (Instant::now(), text.text_content().as_deref() != Some(stage));
+    if !is_new && LAST.get().is_some_and(|last| now - last < PACE) {
         return;
     }
     LAST.set(Some(now));
-    let (stage, share) = meter.read();
-    if let (Some(text), Some(bar)) = (element("stage"), element("share")) {
-        text.set_text_content(Some(if stage.is_empty() { "beginning" } else { &stage }));
-        let _ = bar.set_attribute("value", &share.clamp(0.0, 1.0).to_string());
-    }
+    text.set_text_content(Some(stage));
+    let _ = bar.set_attribute("value", &share.clamp(0.0, 1.0).to_string());
 }
