@@ -62,7 +62,7 @@ pub fn normal_levels<S: Space>(
     let bare = Normal::relabel_all(map.texels());
     let found = smaller(map.size(), bare, materials.as_ref().map(Grid::texels), covered.map(Grid::texels));
     let (mut normal_maps, mut material_maps) = (vec![map], Vec::new());
-    for ((width, height), normals, materials) in found {
+    for Smaller { size: (width, height), normals, materials } in found {
         normal_maps.push(Grid::new(width, height, Normal::relabel_vec(normals))?);
         material_maps.push(Grid::new(width, height, materials)?);
     }
@@ -73,21 +73,24 @@ pub fn normal_levels<S: Space>(
     Ok(NormalLevels { normals: MipChain::from_levels(normal_maps)?, materials: materials.transpose()? })
 }
 
-/// Sizes, normals and materials of the smaller levels.
-fn smaller(
+/// A level below the largest.
+struct Smaller {
     size: (u32, u32),
-    texels: &[Bare],
-    materials: Option<&[u8]>,
-    covered: Option<&[bool]>,
-) -> Vec<((u32, u32), Vec<Bare>, Vec<u8>)> {
+    normals: Vec<Bare>,
+    materials: Vec<u8>,
+}
+
+/// The levels below the largest.
+fn smaller(size: (u32, u32), texels: &[Bare], materials: Option<&[u8]>, covered: Option<&[bool]>) -> Vec<Smaller> {
     let mut cascade = Cascade::new(size);
-    let mut found: Vec<_> = cascade.sizes().into_iter().map(|size| (size, Vec::new(), Vec::new())).collect();
+    let empty = |size| Smaller { size, normals: Vec::new(), materials: Vec::new() };
+    let mut found: Vec<Smaller> = cascade.sizes().into_iter().map(empty).collect();
     let rows = size.0 as usize * BAND_ROWS;
     for first in (0..texels.len()).step_by(rows) {
         let band = first..texels.len().min(first + rows);
         let texel = |t: usize| Texel::new(texels[t], materials.map_or(0, |m| m[t]), covered.is_none_or(|c| c[t]));
         cascade.push(band.map(texel), |level, texels| {
-            let (_, normals, materials) = &mut found[level];
+            let Smaller { normals, materials, .. } = &mut found[level];
             normals.extend(texels.iter().map(|t| t.normal));
             materials.extend(texels.iter().map(|t| t.material));
         });
