@@ -14,11 +14,12 @@ const LOADED: f64 = 3.0;
 /// Seconds from the drop of a height map of [`SIDE`]² to its surface.
 const RELIT: f64 = 5.0;
 const SIDE: u32 = 2048;
-/// Seconds without a frame in which a page may be called responsive.
+/// Seconds without an answer, or without a frame, in which a page may be called responsive.
 const RESPONSIVE: f64 = 0.25;
 
-/// Notes when the page says what, and when it makes a frame.
-const SPY: &str = "globalThis.said = []; globalThis.frames = []; \
+/// Notes when the page says what, when it makes a frame, and when it hears nothing for more than 50 ms.
+const SPY: &str = "globalThis.said = []; globalThis.frames = []; globalThis.tasks = []; \
+    new PerformanceObserver((list) => tasks.push(...list.getEntries())).observe({ type: 'longtask' }); \
     addEventListener('DOMContentLoaded', () => { \
       const words = () => ['state', 'told'].map((id) => document.getElementById(id)?.textContent ?? '').join(' '); \
       const note = () => said.push([performance.now(), words()]); \
@@ -44,7 +45,7 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
     let map = rilievo_io::encode_gray_png16(&rough(SIDE)?)?;
     let server = Server::start();
     for mode in MODES {
-        let (mut loads, mut drops, mut stops) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut loads, mut drops, mut stops, mut tasks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut last = None;
         for _ in 0..rounds.min(5) {
             // One at a time.
@@ -66,11 +67,15 @@ pub(crate) fn run(rounds: usize, report: &mut Report) -> Result<()> {
                 end = end * 1e3
             ));
             stops.push(longest.as_f64().context("frames")? / 1e3);
+            let longest = browser
+                .eval(&format!("Math.max(0, ...tasks.filter((t) => t.startTime > {start}).map((t) => t.duration))"));
+            tasks.push(longest.as_f64().context("tasks")? / 1e3);
             last = Some(browser);
         }
         let Some(mut browser) = last else { continue };
         add(report, &mode, "load", loads, LOADED, "to the first lit frame")?;
         add(report, &mode, "drop", drops, RELIT, "a height map of 2048 × 2048 to its surface")?;
+        add(report, &mode, "task", tasks, RESPONSIVE, "the longest time in which the page hears nothing meanwhile")?;
         add(report, &mode, "stop", stops, RESPONSIVE, "the longest time without a frame meanwhile")?;
         frames(&mut browser, &mode, report)?;
     }
