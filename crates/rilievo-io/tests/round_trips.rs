@@ -87,11 +87,7 @@ fn uncovered_texels_stay_uncovered_and_may_hold_anything() {
 
 /// An array of floats, height × width × 4, as NumPy writes it.
 fn npy(width: u32, height: u32, channels: usize, values: &[f32]) -> Source {
-    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}, {channels}), }}\n");
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
+    let bytes = testkit::write_npy_f32(&[height as usize, width as usize, channels], values);
     Source::from_bytes("floats.npy", bytes)
 }
 

@@ -86,7 +86,7 @@ impl Job {
     /// Begins to make a subject, unless the page has begun it already; `done` is called when it is there.
     #[cfg(target_arch = "wasm32")]
     pub fn begin(recipe: &Recipe, done: impl Fn() + 'static) -> Self {
-        let job = crate::web::prepared(recipe).unwrap_or_else(|| Self::begin_unheard(recipe));
+        let job = crate::web::prepared(recipe).unwrap_or_else(|| Self::begin_unheard(None, recipe));
         let is_made = job.result.lock().unwrap_or_else(PoisonError::into_inner).is_some();
         if is_made {
             done();
@@ -95,14 +95,14 @@ impl Job {
         job
     }
 
-    /// Begins to make a subject for somebody to come.
+    /// Begins to make a subject for somebody to come, in a worker that there is or in a new one.
     #[cfg(target_arch = "wasm32")]
-    pub(crate) fn begin_unheard(recipe: &Recipe) -> Self {
+    pub(crate) fn begin_unheard(worker: Option<web_sys::Worker>, recipe: &Recipe) -> Self {
         let (meter, result): (Arc<Meter>, Made) = Default::default();
         let hearer = Hearer::new(std::cell::RefCell::new(Box::new(|| ())));
         let tell = std::rc::Rc::clone(&hearer);
         let done = Box::new(move || tell.borrow()());
-        let work = crate::web::begin(recipe, Arc::clone(&meter), Arc::clone(&result), done);
+        let work = crate::web::begin(worker, recipe, (Arc::clone(&meter), Arc::clone(&result)), done);
         Self { meter, result, hearer, _work: work }
     }
 

@@ -16,6 +16,6 @@ pub mod stages;
 
 pub use data::{shared_data, shared_file};
 pub use lengths::{LengthStats, length_stats};
-pub use npy::read_npy_f16;
+pub use npy::{read_npy_f16, write_npy_f32};
 pub use random::{Random, uniform_sphere};
 pub use skip::{has_program, skip};

@@ -1,4 +1,4 @@
-//! Reading NumPy arrays of test data.
+//! NumPy arrays as test data.
 
 use half::f16;
 
@@ -27,6 +27,20 @@ fn parse_side(text: &str) -> usize {
     text.parse().expect("a whole number")
 }
 
+/// A little-endian float32 array as NumPy writes it (`.npy` version 1); `values` need not fill `shape`, for files that lie.
+pub fn write_npy_f32(shape: &[usize], values: &[f32]) -> Vec<u8> {
+    let sides: String = shape.iter().map(|side| format!("{side}, ")).collect();
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({sides}), }}");
+    // With the ten bytes before it, whole lines of 64.
+    let padded = (header.len() + 11).next_multiple_of(64) - 11;
+    let header = format!("{header:padded$}\n");
+    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    file.extend((header.len() as u16).to_le_bytes());
+    file.extend(header.as_bytes());
+    file.extend(values.iter().flat_map(|v| v.to_le_bytes()));
+    file
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,5 +53,12 @@ mod tests {
         file.extend(header.as_bytes());
         file.extend([0x00, 0x3c, 0x00, 0xc0]);
         assert_eq!(read_npy_f16(&file), (vec![1, 2], vec![1.0, -2.0]));
+    }
+
+    #[test]
+    fn writes_whole_lines_of_header() {
+        let file = write_npy_f32(&[2, 1], &[0.5, -1.0]);
+        assert!(file.len() == 128 + 8 && file[127] == b'\n', "{}", file.len());
+        assert_eq!(file[128..], [0, 0, 0, 0x3f, 0, 0, 0x80, 0xbf]);
     }
 }

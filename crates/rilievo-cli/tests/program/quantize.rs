@@ -1,3 +1,5 @@
+use testkit::write_npy_f32;
+
 use crate::runner::Room;
 
 #[test]
@@ -82,23 +84,12 @@ fn impossible_outputs_are_refused_before_work() {
     assert_eq!(room.files(), ["n.png"]);
 }
 
-/// A little-endian float32 array of RGB.
-fn npy(width: usize, height: usize, values: &[f32]) -> Vec<u8> {
-    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}, 3), }}");
-    let header = format!("{header:117}\n");
-    let mut file = b"\x93NUMPY\x01\x00".to_vec();
-    file.extend((header.len() as u16).to_le_bytes());
-    file.extend(header.as_bytes());
-    file.extend(values.iter().flat_map(|v| v.to_le_bytes()));
-    file
-}
-
 #[test]
 fn holes_are_refused_with_their_place_and_repaired_on_demand() {
     let room = Room::new();
     let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let row = [x, x, [0.0; 3], z, z, [f32::NAN, 0.0, 1.0]];
-    room.write("holes.npy", &npy(6, 1, row.as_flattened()));
+    room.write("holes.npy", &write_npy_f32(&[1, 6, 3], row.as_flattened()));
     room.run("quantize holes.npy --space object -n 4 -o q.png").fails(4, &["holes.npy", "2 texels", "--repair", "2"]);
     assert_eq!(room.files(), ["holes.npy"]);
     let said = room.run("quantize holes.npy --space object -n 4 --repair -o q.png").ok();
@@ -109,7 +100,7 @@ fn holes_are_refused_with_their_place_and_repaired_on_demand() {
     let near_x: Vec<bool> = map.expand().texels().iter().map(|n| n.vec().x > 0.5).collect();
     // Left before right, and the map repeats: the last texel has a Z on its left and an X on its right.
     assert_eq!(near_x, [true, true, true, false, false, false]);
-    room.write("nothing.npy", &npy(2, 1, &[0.0; 6]));
+    room.write("nothing.npy", &write_npy_f32(&[1, 2, 3], &[0.0; 6]));
     room.run("quantize nothing.npy --repair -n 4 -o q.png").fails(4, &["nothing.npy", "not one"]);
 }
 

@@ -26,7 +26,7 @@ const LEAST_BENT: u32 = 512;
 /// What a map may have at most. Making one takes some 60 bytes a texel, and a page has 4 GiB, the two copies of the file
 /// among them.
 const LIMITS: Limits =
-    Limits { max_texels: if cfg!(target_arch = "wasm32") { 1 << 25 } else { 1 << 28 }, ..Limits::DEFAULT };
+    if cfg!(target_arch = "wasm32") { Limits { max_texels: 1 << 25, ..Limits::DEFAULT } } else { Limits::DEFAULT };
 
 /// A file that was opened or dropped.
 #[derive(Debug, Clone)]
@@ -219,12 +219,12 @@ fn from_mesh(recipe: &Recipe, progress: &dyn Progress) -> Result<Subject, String
 }
 
 fn from_map(recipe: &Recipe, file: &File, progress: &dyn Progress) -> Result<Subject, String> {
-    let (source, limits) = (file.source(), &LIMITS);
+    let source = file.source();
     progress.begin("reading", 1);
     if io::is_indexed(&source) {
         return from_indexed(recipe, file, &source);
     }
-    let relief = io::decode_relief::<Tangent>(&source, recipe.convention, limits).map_err(|error| {
+    let relief = io::decode_relief::<Tangent>(&source, recipe.convention, &LIMITS).map_err(|error| {
         format!(
             "{error} (formats: PNG, JPEG, TIFF, EXR, NPY for heights and normals; indexed PNG, KTX2; OBJ, PLY, GLB)"
         )
@@ -376,6 +376,7 @@ fn finish(
 mod tests {
     use super::*;
     use rilievo::progress::Silent;
+    use testkit::write_npy_f32;
 
     #[test]
     fn bad_files_are_refused_by_name_and_reason() {
@@ -389,15 +390,9 @@ mod tests {
         assert!(refused("empty.png", Vec::new()).contains("empty"));
         assert!(refused("notes.txt", b"Not a map of anything.".to_vec()).contains("EXR"));
         refused("cut.png", png[..png.len() / 2].to_vec());
-        let array = |shape: &str, values: &[f32]| {
-            let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({shape}), }}\n");
-            let length = (header.len() as u16).to_le_bytes();
-            let values = values.iter().flat_map(|v| v.to_le_bytes());
-            b"\x93NUMPY\x01\x00".iter().copied().chain(length).chain(header.into_bytes()).chain(values).collect()
-        };
-        let why = refused("huge.npy", array("65536, 65536", &[0.5; 4]));
+        let why = refused("huge.npy", write_npy_f32(&[65_536, 65_536], &[0.5; 4]));
         assert!(why.contains("65536 × 65536") && why.contains("limit"), "{why}");
-        let why = refused("holes.npy", array("2, 2", &[0.1, 0.2, f32::NAN, 0.3]));
+        let why = refused("holes.npy", write_npy_f32(&[2, 2], &[0.1, 0.2, f32::NAN, 0.3]));
         assert!(why.contains("texel (0, 1)"), "{why}");
     }
 

@@ -24,3 +24,9 @@ pub(crate) use words::Words;
 pub use worker::work;
 #[cfg(target_arch = "wasm32")]
 pub(crate) use worker::{Work, begin};
+
+/// An element of the page.
+#[cfg(target_arch = "wasm32")]
+fn element(id: &str) -> Option<web_sys::Element> {
+    web_sys::window()?.document()?.get_element_by_id(id)
+}

@@ -9,7 +9,6 @@ use rilievo_gpu::Gpu;
 use wasm_bindgen::prelude::*;
 use web_sys::{HtmlCanvasElement, Worker};
 
-use super::worker;
 use crate::app::{Font, Start, Viewer};
 use crate::job::Job;
 use crate::look::Look;
@@ -24,9 +23,8 @@ thread_local! {
 /// workers; without one there will be one.
 #[wasm_bindgen]
 pub fn prepare(worker: Option<Worker>) {
-    worker::keep(worker);
     let recipe = Recipe::default().preview();
-    let job = Job::begin_unheard(&recipe);
+    let job = Job::begin_unheard(worker, &recipe);
     FIRST.set(Some((recipe, job)));
 }
 

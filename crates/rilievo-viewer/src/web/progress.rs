@@ -3,9 +3,9 @@
 
 use std::cell::Cell;
 
-use web_sys::Element;
 use web_time::{Duration, Instant};
 
+use super::element;
 use crate::job::Meter;
 
 /// How often a share changes. It is seen to move, and little is taken from the work.
@@ -13,10 +13,6 @@ const PACE: Duration = Duration::from_millis(300);
 
 thread_local! {
     static LAST: Cell<Option<Instant>> = const { Cell::new(None) };
-}
-
-fn element(id: &str) -> Option<Element> {
-    web_sys::window()?.document()?.get_element_by_id(id)
 }
 
 /// Shows how far a work is from now on, or nothing.

@@ -2,6 +2,8 @@
 
 use web_time::{Duration, Instant};
 
+use super::element;
+
 /// How long figures stay, so that they can be read and heard.
 const STAY: Duration = Duration::from_millis(500);
 
@@ -24,7 +26,7 @@ impl Words {
         if subject == self.subject && said < STAY {
             return Some(STAY - said);
         }
-        if let Some(element) = web_sys::window().and_then(|w| w.document()?.get_element_by_id("state")) {
+        if let Some(element) = element("state") {
             element.set_text_content(Some(&all));
         }
         (self.subject, self.all, self.when) = (subject, all, Some(Instant::now()));

@@ -66,16 +66,6 @@ impl Progress for Teller {
     }
 }
 
-thread_local! {
-    /// A worker without work.
-    static SPARE: RefCell<Option<Worker>> = const { RefCell::new(None) };
-}
-
-/// Keeps a worker for the next work.
-pub(super) fn keep(worker: Option<Worker>) {
-    SPARE.set(worker);
-}
-
 /// A worker at work; dropped, it stops.
 pub(crate) struct Work {
     worker: Worker,
@@ -91,9 +81,14 @@ impl Drop for Work {
     }
 }
 
-/// Begins a worker with a recipe. What comes of it is put into `result`, and then `done` is called.
-pub(crate) fn begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn Fn()>) -> Option<Work> {
-    match try_begin(recipe, meter, Arc::clone(&result), done) {
+/// Begins to work on a recipe in a worker, or in a new one. What comes of it is put into `result`, and then `done` is called.
+pub(crate) fn begin(
+    worker: Option<Worker>,
+    recipe: &Recipe,
+    (meter, result): (Arc<Meter>, Made),
+    done: Box<dyn Fn()>,
+) -> Option<Work> {
+    match try_begin(worker, recipe, (meter, Arc::clone(&result)), done) {
         Ok(work) => Some(work),
         Err(why) => {
             put(&result, Err(format!("the browser gives no worker: {why:?}")));
@@ -106,13 +101,18 @@ fn put(result: &Made, made: Result<Subject, String>) {
     *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
 }
 
-fn try_begin(recipe: &Recipe, meter: Arc<Meter>, result: Made, done: Box<dyn Fn()>) -> Result<Work, JsValue> {
+fn try_begin(
+    worker: Option<Worker>,
+    recipe: &Recipe,
+    (meter, result): (Arc<Meter>, Made),
+    done: Box<dyn Fn()>,
+) -> Result<Work, JsValue> {
     let new = || {
         let options = WorkerOptions::new();
         options.set_type(WorkerType::Module);
         Worker::new_with_options("./worker.js", &options)
     };
-    let worker = SPARE.take().map_or_else(new, Ok)?;
+    let worker = worker.map_or_else(new, Ok)?;
     let done: Rc<dyn Fn()> = done.into();
     let (failed, done_too) = (Arc::clone(&result), Rc::clone(&done));
     let hear = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {

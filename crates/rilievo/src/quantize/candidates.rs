@@ -6,7 +6,7 @@
 //! its answer is not approximate. A cell that lies far from all entries for its size is left to a search of another kind:
 //! dividing it may help little (at the centre of a ring all are equally near) and costs as much as any other.
 
-use super::entries::{Entries, squared_f64};
+use super::entries::{Entries, normalized, squared_f64};
 use super::octahedral::{MORTON_BITS, direction, morton};
 
 /// Entries of a list at most.
@@ -116,9 +116,7 @@ impl Cell {
         let corner =
             |q: u32| direction([(self.at[0] + (q & 1)).into(), (self.at[1] + (q >> 1)).into()].map(|c: f64| c / side));
         let corners = [0, 1, 2, 3].map(corner);
-        let sum = [0, 1, 2].map(|k| corners.iter().map(|c| c[k]).sum::<f64>());
-        let length = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
-        let center = sum.map(|c| c / length);
+        let center = normalized([0, 1, 2].map(|k| corners.iter().map(|c| c[k]).sum()));
         // A cell is one or two polygons of great circles: the cap that holds their corners holds them.
         let farthest = corners.iter().map(|&c| squared_f64(center, c.map(|c| c as f32))).fold(0.0, f64::max);
         (center, farthest.sqrt() + SLACK)

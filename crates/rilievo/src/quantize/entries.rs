@@ -39,6 +39,12 @@ pub(super) fn unit([x, y, z]: [f64; 3]) -> Option<[f32; 3]> {
     (length > 1e-30).then(|| [x, y, z].map(|c| (c / length) as f32))
 }
 
+/// A vector that is not zero at unit length, in f64.
+pub(super) fn normalized([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let length = (x * x + y * y + z * z).sqrt();
+    [x / length, y / length, z / length]
+}
+
 /// Squared distance in f64: what "nearest" means everywhere in this folder.
 pub(super) fn squared_f64(a: [f64; 3], b: [f32; 3]) -> f64 {
     let [x, y, z] = [a[0] - f64::from(b[0]), a[1] - f64::from(b[1]), a[2] - f64::from(b[2])];

@@ -7,6 +7,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, u32x8};
 
+use super::entries::normalized;
 use super::points::LANES;
 
 /// Bits of one coordinate in a Morton code.
@@ -31,9 +32,7 @@ pub(super) fn direction(at: [f64; 2]) -> [f64; 3] {
     let z = 1.0 - a.abs() - b.abs();
     // The lower half is folded over the edges of the upper one.
     let fold = (-z).max(0.0);
-    let v = [a - fold.copysign(a), b - fold.copysign(b), z];
-    let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
-    v.map(|c| c / length)
+    normalized([a - fold.copysign(a), b - fold.copysign(b), z])
 }
 
 /// The square's cell of a vector, with `bits` bits per side.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::super::entries::Entries;
+use super::super::entries::{Entries, normalized};
 use super::super::nearest::Nearest;
 use super::{cross, dot, sub};
 
@@ -78,7 +78,7 @@ struct Front<'a> {
 
 impl Front<'_> {
     fn direction(&self, entry: u32) -> [f64; 3] {
-        unit(self.entries.directions[entry as usize].map(f64::from))
+        normalized(self.entries.directions[entry as usize].map(f64::from))
     }
 
     fn find(&self, direction: [f64; 3]) -> u32 {
@@ -146,7 +146,7 @@ impl Front<'_> {
             return None;
         }
         for _ in 0..MOST_STEPS {
-            let center = unit(cross(sub(end, start), sub(self.direction(c), start)));
+            let center = normalized(cross(sub(end, start), sub(self.direction(c), start)));
             let inside = self.find(center);
             let direction = self.direction(inside);
             let is_closer = dot(center, direction) > dot(center, start) + 1e-12;
@@ -157,11 +157,6 @@ impl Front<'_> {
         }
         Some(c)
     }
-}
-
-fn unit(v: [f64; 3]) -> [f64; 3] {
-    let length = dot(v, v).sqrt();
-    v.map(|c| c / length)
 }
 
 fn is_slim([a, b, c]: [[f64; 3]; 3]) -> bool {
@@ -206,7 +201,7 @@ mod tests {
         let around = triangles.around(wanted.map(f64::from), own)?;
         assert!(around.iter().all(|a| a.1 >= 0.0) && (around.iter().map(|a| a.1).sum::<f64>() - 1.0).abs() < 1e-12);
         let mean = |k: usize| around.iter().map(|a| a.1 * f64::from(entries.directions[a.0 as usize][k])).sum();
-        Some(unit([mean(0), mean(1), mean(2)]))
+        Some(normalized([mean(0), mean(1), mean(2)]))
     }
 
     #[test]
@@ -216,8 +211,8 @@ mod tests {
             assert_eq!(triangles.triangles.len(), 2 * count - 4, "Euler's formula");
             for t in &triangles.triangles {
                 let [a, b, c] = t.directions;
-                let center = unit(cross(sub(b, a), sub(c, a)));
-                let inside = |e: &&[f32; 3]| dot(center, unit(e.map(f64::from))) > dot(center, a) + 1e-9;
+                let center = normalized(cross(sub(b, a), sub(c, a)));
+                let inside = |e: &&[f32; 3]| dot(center, normalized(e.map(f64::from))) > dot(center, a) + 1e-9;
                 assert_eq!(entries.directions.iter().find(inside), None, "{t:?}");
             }
             let mut found = 0;
@@ -252,7 +247,7 @@ mod tests {
         assert!(mixed(&entries, &triangles, [0.0, 0.0, 1.0]).is_some());
 
         let z = [0.0, 0.0, 1.0];
-        let line = |i: i16| unit([f64::from(i) / 5.0, 0.0, 1.0]).map(|c| c as f32);
+        let line = |i: i16| normalized([f64::from(i) / 5.0, 0.0, 1.0]).map(|c| c as f32);
         for few in
             [vec![z], vec![z, z, z], vec![z, [1.0, 0.0, 0.0]], vec![z, [0.0, 0.0, -1.0]], (-7..7).map(line).collect()]
         {
